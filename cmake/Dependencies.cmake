@@ -1,0 +1,21 @@
+# What Debian 12 gives. Debian's spdlog, Ceres, Eigen and nlohmann-json ship CMake packages.
+find_package(Threads REQUIRED)
+find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(Ceres REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(SQLite3 REQUIRED)
+find_package(PNG REQUIRED)
+
+find_path(ZSTD_INCLUDE_DIR zstd.h REQUIRED)
+find_library(ZSTD_LIBRARY zstd REQUIRED)
+add_library(zstd::zstd INTERFACE IMPORTED GLOBAL)
+target_include_directories(zstd::zstd SYSTEM INTERFACE ${ZSTD_INCLUDE_DIR})
+target_link_libraries(zstd::zstd INTERFACE ${ZSTD_LIBRARY})
+
+find_path(SYSTEMD_INCLUDE_DIR systemd/sd-daemon.h REQUIRED)
+find_library(SYSTEMD_LIBRARY systemd REQUIRED)
+add_library(systemd::systemd INTERFACE IMPORTED GLOBAL)
+target_include_directories(systemd::systemd SYSTEM INTERFACE ${SYSTEMD_INCLUDE_DIR})
+target_link_libraries(systemd::systemd INTERFACE ${SYSTEMD_LIBRARY})
