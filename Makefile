@@ -1,0 +1,34 @@
+# Two commands for a fresh Debian 12 machine. Both install the packages they need (only what is
+# missing), then build and run.
+#
+#   make demo    a simulated robot maps an office; leaves demo/map.png and demo/topology.svg
+#   make test    the whole test suite
+#
+# Further: make build, make package (a .deb), make PRESET=asan test, make clean.
+
+PRESET ?= dev
+JOBS ?= $(shell nproc)
+
+.PHONY: demo test build setup package clean
+
+demo: PRESET = release
+demo: build
+	scripts/demo build/release
+
+test: build
+	ctest --preset $(PRESET) -j $(JOBS)
+
+build: setup
+	@[ -f build/$(PRESET)/build.ninja ] || cmake --preset $(PRESET) >build-$(PRESET).log 2>&1 || { cat build-$(PRESET).log; exit 1; }
+	@rm -f build-$(PRESET).log
+	cmake --build --preset $(PRESET) -j $(JOBS)
+
+setup:
+	@scripts/setup
+
+package: PRESET = release
+package: build
+	cpack --preset release
+
+clean:
+	rm -rf build

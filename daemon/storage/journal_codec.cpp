@@ -1,0 +1,298 @@
+#include "storage/journal_codec.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include <cairn_journal/scan_record_t.hpp>
+#include <cairn_journal/visit_record_t.hpp>
+
+#include "star/star.hpp"
+#include "wire/document.hpp"
+
+namespace cairn::wire {
+
+template <>
+inline constexpr std::string_view kSignatureText<cairn_journal::scan_record_t> =
+    "q d[=3] d[=9] d[=3] d[=9] i i i d d[=3] d d i f[12] i f[14]";
+template <>
+inline constexpr std::string_view kSignatureText<cairn_journal::visit_record_t> =
+    "q q q d[=3] i i d[=3] d[=3] d[=2] i d d i {d[=4] d[=2] d d d}[12] i {i i i}[14] i {i i i}[16] "
+    "{d d[=2] i i i h[5]}";
+
+}  // namespace cairn::wire
+
+namespace cairn {
+namespace {
+
+constexpr std::size_t kMaxRowBytes = std::size_t{64} << 20U;
+
+Error malformed(const std::string& what) { return {ErrorCode::kMalformed, "journal: " + what}; }
+
+void put(const Pose2& pose, double (&out)[3]) {  // NOLINT: the generated type has arrays
+  out[0] = pose.x();
+  out[1] = pose.y();
+  out[2] = pose.theta();
+}
+Pose2 pose_of(const double (&in)[3]) { return {in[0], in[1], in[2]}; }  // NOLINT
+
+void put(const Matrix3d& matrix, double (&out)[9]) {  // NOLINT
+  for (int i = 0; i < 9; ++i) {
+    out[i] = matrix(i / 3, i % 3);
+  }
+}
+Matrix3d matrix_of(const double (&in)[9]) {  // NOLINT
+  Matrix3d matrix;
+  for (int i = 0; i < 9; ++i) {
+    matrix(i / 3, i % 3) = in[i];
+  }
+  return matrix;
+}
+
+void put(const Vector2d& point, double* out) {
+  out[0] = point.x();
+  out[1] = point.y();
+}
+Vector2d point_of(const double* in) { return {in[0], in[1]}; }
+
+float evenly_spaced(float first, float second, std::size_t i) {
+  return static_cast<float>(static_cast<double>(first) +
+                            (static_cast<double>(second) - static_cast<double>(first)) *
+                                static_cast<double>(i));
+}
+
+/// Most scanners have evenly spaced beams: two bearings then stand for all, exactly.
+std::vector<float> packed_bearings(const std::vector<float>& bearings) {
+  for (std::size_t i = 0; i < bearings.size(); ++i) {
+    if (bearings.size() < 3 || bearings[i] != evenly_spaced(bearings[0], bearings[1], i)) {
+      return bearings;
+    }
+  }
+  return {bearings.begin(), bearings.begin() + 2};
+}
+
+std::vector<float> unpacked_bearings(const std::vector<float>& packed, std::size_t count) {
+  if (packed.size() == count || packed.size() != 2) {
+    return packed;
+  }
+  std::vector<float> bearings(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    bearings[i] = evenly_spaced(packed[0], packed[1], i);
+  }
+  return bearings;
+}
+
+cairn_journal::gateway_record_t to_record(const Gateway& gateway) {
+  cairn_journal::gateway_record_t record{};
+  put(gateway.basis_points[0], record.basis_points_m);
+  put(gateway.basis_points[1], record.basis_points_m + 2);
+  put(gateway.middle, record.middle_m);
+  record.width_m = gateway.width_m;
+  record.outward_bearing_rad = gateway.outward_bearing_rad;
+  record.seen_beyond_m = gateway.seen_beyond_m;
+  return record;
+}
+
+Gateway gateway_of(const cairn_journal::gateway_record_t& record) {
+  Gateway gateway;
+  gateway.basis_points = {point_of(record.basis_points_m), point_of(record.basis_points_m + 2)};
+  gateway.middle = point_of(record.middle_m);
+  gateway.width_m = record.width_m;
+  gateway.outward_bearing_rad = record.outward_bearing_rad;
+  gateway.seen_beyond_m = record.seen_beyond_m;
+  return gateway;
+}
+
+void put(const OccupancyGrid& grid, cairn_journal::grid_record_t* record) {
+  const GridGeometry& geometry = grid.geometry();
+  record->cell_m = geometry.cell_m;
+  put(geometry.origin_m, record->origin_m);
+  record->width = geometry.width;
+  record->height = geometry.height;
+  record->log_odds = grid.cells();
+  record->num_cells = static_cast<int>(grid.cells().size());
+}
+
+Result<OccupancyGrid> grid_of(const cairn_journal::grid_record_t& record) {
+  GridGeometry geometry;
+  geometry.cell_m = record.cell_m;
+  geometry.origin_m = point_of(record.origin_m);
+  geometry.width = record.width;
+  geometry.height = record.height;
+  const bool is_sound = record.cell_m > 0.0 && std::isfinite(record.cell_m) &&
+                        geometry.origin_m.allFinite() && record.width >= 0 && record.height >= 0 &&
+                        geometry.cell_count() == record.log_odds.size();
+  if (!is_sound) {
+    return malformed("a grid whose size and cells do not agree");
+  }
+  OccupancyGrid grid(geometry);
+  grid.cells() = record.log_odds;
+  return grid;
+}
+
+void put(const PlaceNeighbourhood& neighbourhood, cairn_journal::visit_record_t* record) {
+  put(neighbourhood.center, record->center_m);
+  record->is_complete = neighbourhood.is_complete ? 1 : 0;
+  record->radius_m = neighbourhood.radius_m;
+  record->distinctiveness_share = neighbourhood.distinctiveness;
+  for (const Gateway& gateway : neighbourhood.gateways) {
+    record->gateways.push_back(to_record(gateway));
+  }
+  record->num_gateways = static_cast<int>(record->gateways.size());
+  for (const PathFragment& fragment : neighbourhood.fragments) {
+    cairn_journal::fragment_record_t one{};
+    one.gateway = fragment.gateway;
+    one.through = fragment.through;
+    one.is_dead_end = fragment.is_dead_end ? 1 : 0;
+    record->fragments.push_back(one);
+  }
+  record->num_fragments = static_cast<int>(record->fragments.size());
+  for (const StarSlot& slot : neighbourhood.star.slots) {
+    cairn_journal::slot_record_t one{};
+    one.gateway = slot.gateway;
+    one.partner = static_cast<int>(slot.partner);
+    one.law = static_cast<int>(slot.law);
+    record->slots.push_back(one);
+  }
+  record->num_slots = static_cast<int>(record->slots.size());
+}
+
+Result<PlaceNeighbourhood> neighbourhood_of(const cairn_journal::visit_record_t& record) {
+  PlaceNeighbourhood neighbourhood;
+  neighbourhood.center = point_of(record.center_m);
+  neighbourhood.is_complete = record.is_complete != 0;
+  neighbourhood.radius_m = record.radius_m;
+  neighbourhood.distinctiveness = record.distinctiveness_share;
+  for (const cairn_journal::gateway_record_t& gateway : record.gateways) {
+    neighbourhood.gateways.push_back(gateway_of(gateway));
+  }
+  for (const cairn_journal::fragment_record_t& fragment : record.fragments) {
+    neighbourhood.fragments.push_back(
+        {fragment.gateway, fragment.through, fragment.is_dead_end != 0});
+  }
+  for (const cairn_journal::slot_record_t& slot : record.slots) {
+    const bool is_sound = slot.partner >= 0 && slot.partner < record.num_slots &&
+                          slot.gateway >= -1 && slot.gateway < record.num_gateways &&
+                          slot.law >= 0 && slot.law <= static_cast<int>(ControlLaw::kNone);
+    if (!is_sound) {
+      return malformed("a star that names a missing gateway or slot");
+    }
+    neighbourhood.star.slots.push_back({slot.gateway, static_cast<std::size_t>(slot.partner),
+                                        static_cast<ControlLaw>(slot.law)});
+  }
+  return neighbourhood;
+}
+
+bool names_a_gateway(int gateway, std::size_t count) {
+  return gateway >= -1 && gateway < static_cast<int>(count);
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> to_row(const PerceivedScan& perceived) {
+  const LaserScan& scan = *perceived.scan;
+  const LocalFix& fix = perceived.fix;
+  cairn_journal::scan_record_t record{};
+  record.utime = utime_of(scan.time);
+  put(fix.T_lpm_robot, record.T_lpm_robot_m_rad);
+  put(fix.covariance, record.covariance_m2_rad2);
+  put(fix.motion.mean, record.T_previous_robot_m_rad);
+  put(fix.motion.covariance, record.motion_covariance_m2_rad2);
+  record.is_matched = fix.is_matched ? 1 : 0;
+  record.is_degenerate = fix.is_degenerate ? 1 : 0;
+  record.note = static_cast<int>(fix.note);
+  record.score_share = fix.score;
+  put(scan.T_robot_laser, record.T_robot_laser_m_rad);
+  record.max_range_m = scan.max_range_m;
+  record.sweep_duration_s = scan.sweep_duration_s;
+  record.bearings_rad = packed_bearings(scan.bearings_rad);
+  record.num_bearings = static_cast<int>(record.bearings_rad.size());
+  record.ranges_m = scan.ranges_m;
+  record.num_ranges = static_cast<int>(record.ranges_m.size());
+  return wire::to_document(record);
+}
+
+Result<PerceivedScan> scan_of_row(const std::vector<std::uint8_t>& row) {
+  const auto record = wire::from_document<cairn_journal::scan_record_t>(row, kMaxRowBytes);
+  if (!record) {
+    return malformed(record.error());
+  }
+  auto scan = std::make_shared<LaserScan>();
+  scan->time = time_of_utime(record->utime);
+  scan->T_robot_laser = pose_of(record->T_robot_laser_m_rad);
+  scan->max_range_m = record->max_range_m;
+  scan->sweep_duration_s = record->sweep_duration_s;
+  scan->ranges_m = record->ranges_m;
+  scan->bearings_rad = unpacked_bearings(record->bearings_rad, record->ranges_m.size());
+  if (const Status status = validate(*scan); !status) {
+    return malformed(status.error().message);
+  }
+  LocalFix fix;
+  fix.time = scan->time;
+  fix.T_lpm_robot = pose_of(record->T_lpm_robot_m_rad);
+  fix.covariance = matrix_of(record->covariance_m2_rad2);
+  fix.motion = {pose_of(record->T_previous_robot_m_rad),
+                matrix_of(record->motion_covariance_m2_rad2)};
+  fix.is_matched = record->is_matched != 0;
+  fix.is_degenerate = record->is_degenerate != 0;
+  fix.score = record->score_share;
+  if (record->note < 0 || record->note > static_cast<int>(FixNote::kContradiction) ||
+      !std::isfinite(fix.T_lpm_robot.x() + fix.T_lpm_robot.y() + fix.T_lpm_robot.theta())) {
+    return malformed("a pose or a note out of range");
+  }
+  fix.note = static_cast<FixNote>(record->note);
+  return PerceivedScan{std::move(scan), fix};
+}
+
+std::vector<std::uint8_t> to_row(const Visit& visit) {
+  const PlaceVisit& perceived = visit.perceived;
+  cairn_journal::visit_record_t record{};
+  record.anchor_scan = static_cast<std::int64_t>(visit.anchor_scan);
+  record.entered_utime = utime_of(perceived.entered);
+  record.left_utime = utime_of(perceived.left);
+  put(perceived.T_lpm_place, record.T_lpm_place_m_rad);
+  record.arrival_gateway = perceived.arrival_gateway;
+  record.departure_gateway = perceived.departure_gateway;
+  put(perceived.T_place_robot_at_entry, record.T_place_entry_m_rad);
+  put(perceived.T_place_robot_at_exit, record.T_place_exit_m_rad);
+  put(perceived.neighbourhood, &record);
+  put(perceived.lpm, &record.lpm);
+  return wire::to_document(record);
+}
+
+Result<Visit> visit_of_row(const std::vector<std::uint8_t>& row) {
+  const auto record = wire::from_document<cairn_journal::visit_record_t>(row, kMaxRowBytes);
+  if (!record) {
+    return malformed(record.error());
+  }
+  Result<OccupancyGrid> lpm = grid_of(record->lpm);
+  if (!lpm) {
+    return lpm.error();
+  }
+  Result<PlaceNeighbourhood> neighbourhood = neighbourhood_of(*record);
+  if (!neighbourhood) {
+    return neighbourhood.error();
+  }
+  Visit visit;
+  visit.anchor_scan = static_cast<std::size_t>(record->anchor_scan);
+  PlaceVisit& perceived = visit.perceived;
+  perceived.entered = time_of_utime(record->entered_utime);
+  perceived.left = time_of_utime(record->left_utime);
+  perceived.T_lpm_place = pose_of(record->T_lpm_place_m_rad);
+  perceived.arrival_gateway = record->arrival_gateway;
+  perceived.departure_gateway = record->departure_gateway;
+  perceived.T_place_robot_at_entry = pose_of(record->T_place_entry_m_rad);
+  perceived.T_place_robot_at_exit = pose_of(record->T_place_exit_m_rad);
+  perceived.neighbourhood = *std::move(neighbourhood);
+  perceived.lpm = *std::move(lpm);
+  const std::size_t gateways = perceived.neighbourhood.gateways.size();
+  if (record->anchor_scan < 0 || gateways == 0 ||
+      !names_a_gateway(perceived.arrival_gateway, gateways) ||
+      !names_a_gateway(perceived.departure_gateway, gateways)) {
+    return malformed("a visit that names a missing gateway or scan");
+  }
+  return visit;
+}
+
+}  // namespace cairn

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.hpp"
+#include "service/experience.hpp"
+#include "storage/database.hpp"
+
+namespace cairn {
+
+/// The map file: one SQLite file with the journal of experience (every perceived scan, every visit
+/// with its local perceptual map), what was last published of it (documents), names and the format
+/// version. Rows of the journal are cairn_journal messages, compressed with zstd.
+///
+/// What has been committed survives kill -9, a full disk and a power cut (write-ahead log with full
+/// synchronisation). The same experience gives the same bytes.
+class MapFile {
+ public:
+  static constexpr int kFormatVersion = 1;
+
+  /// Opens or creates. kUnavailable where the path cannot be written, kMalformed where the file is no
+  /// map file or of a newer format.
+  [[nodiscard]] static Result<MapFile> open(const std::string& file);
+
+  /// Takes a scan into the journal, with the next commit.
+  Status append(const PerceivedScan& scan);
+  /// Takes a visit into the journal, with the next commit.
+  Status append(const Visit& visit);
+  /// From here on, all that was appended is on the disk.
+  Status commit();
+
+  /// What was last published. @param what as in snapshot_request_t
+  Status write_document(int what, std::int64_t revision, const std::vector<std::uint8_t>& bytes);
+
+  /// Gives the journal in the order in which it was written. A damaged row ends it, with an error
+  /// that names the row; what was read until then stands.
+  Status read_journal(const std::function<void(PerceivedScan)>& take_scan,
+                      const std::function<void(Visit)>& take_visit);
+
+  /// Names this map for clients: the time of the first scan; 0 before it.
+  [[nodiscard]] std::int64_t map_id() const { return map_id_; }
+  [[nodiscard]] std::int64_t scan_count() const { return scan_count_; }
+  [[nodiscard]] std::int64_t visit_count() const { return visit_count_; }
+
+  /// Commits, and leaves one file without a write-ahead log beside it.
+  Status close();
+
+ private:
+  explicit MapFile(Database database) : database_(std::move(database)) {}
+  Status prepare();
+  Status check_format();
+  Status begin();
+  Status read_meta();
+
+  Database database_;
+  Statement insert_scan_;
+  Statement insert_visit_;
+  Statement replace_document_;
+  std::int64_t map_id_ = 0;
+  std::int64_t scan_count_ = 0;
+  std::int64_t visit_count_ = 0;
+};
+
+}  // namespace cairn

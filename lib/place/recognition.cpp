@@ -1,0 +1,82 @@
+#include "place/recognition.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/check.hpp"
+
+namespace cairn {
+namespace {
+
+/// Mean turn that takes the visit's outward directions to the known ones.
+double mean_turn(const std::vector<Gateway>& known, const std::vector<Gateway>& visit, int shift) {
+  double sine = 0.0;
+  double cosine = 0.0;
+  for (std::size_t j = 0; j < visit.size(); ++j) {
+    const Gateway& other = known[(j + static_cast<std::size_t>(shift)) % known.size()];
+    const double turn = turn_between(visit[j].outward_bearing_rad, other.outward_bearing_rad);
+    sine += std::sin(turn);
+    cosine += std::cos(turn);
+  }
+  return std::atan2(sine, cosine);
+}
+
+/// The gateways' lines laid on each other: their middles, and a point a little outward of each, so
+/// that the directions count too.
+Pose2 aligned_by_gateways(const std::vector<Gateway>& known, const std::vector<Gateway>& visit,
+                          int shift) {
+  constexpr double kOutward_m = 2.0;
+  const auto outward = [](const Gateway& gateway) -> Vector2d {
+    return gateway.middle + kOutward_m * Vector2d(std::cos(gateway.outward_bearing_rad),
+                                                  std::sin(gateway.outward_bearing_rad));
+  };
+  std::vector<Vector2d> points_known;
+  std::vector<Vector2d> points_visit;
+  for (std::size_t j = 0; j < visit.size(); ++j) {
+    const Gateway& other = known[(j + static_cast<std::size_t>(shift)) % known.size()];
+    points_known.push_back(other.middle);
+    points_known.push_back(outward(other));
+    points_visit.push_back(visit[j].middle);
+    points_visit.push_back(outward(visit[j]));
+  }
+  return aligned(points_known, points_visit, mean_turn(known, visit, shift));
+}
+
+}  // namespace
+
+Pose2 aligned(const std::vector<Vector2d>& points_a, const std::vector<Vector2d>& points_b,
+              double fallback_theta_rad) {
+  CAIRN_CHECK(!points_a.empty() && points_a.size() == points_b.size());
+  Vector2d mean_a = Vector2d::Zero();
+  Vector2d mean_b = Vector2d::Zero();
+  for (std::size_t i = 0; i < points_a.size(); ++i) {
+    mean_a += points_a[i];
+    mean_b += points_b[i];
+  }
+  mean_a /= static_cast<double>(points_a.size());
+  mean_b /= static_cast<double>(points_b.size());
+  double dot = 0.0;
+  double cross = 0.0;
+  for (std::size_t i = 0; i < points_a.size(); ++i) {
+    const Vector2d a = points_a[i] - mean_a;
+    const Vector2d b = points_b[i] - mean_b;
+    dot += b.dot(a);
+    cross += b.x() * a.y() - b.y() * a.x();
+  }
+  const double theta =
+      std::hypot(dot, cross) > 1e-9 ? std::atan2(cross, dot) : fallback_theta_rad;
+  const Vector2d rotated = Pose2(0.0, 0.0, theta) * mean_b;
+  return {Vector2d(mean_a - rotated), theta};
+}
+
+Recognition recognize(const PlaceVisit& known, const PlaceVisit& visit, int shift,
+                      const MapMatchOptions& options) {
+  const std::vector<Gateway>& known_gateways = known.neighbourhood.gateways;
+  const std::vector<Gateway>& visit_gateways = visit.neighbourhood.gateways;
+  CAIRN_CHECK(!known_gateways.empty() && known_gateways.size() == visit_gateways.size());
+  const Pose2 T_known_visit = aligned_by_gateways(known_gateways, visit_gateways, shift);
+  const MapMatch match = match_maps(known.lpm, visit.lpm, T_known_visit, options);
+  return {match.T_reference_other, match.log_likelihood_ratio};
+}
+
+}  // namespace cairn

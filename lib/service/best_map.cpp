@@ -1,0 +1,194 @@
+#include "service/best_map.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "base/check.hpp"
+#include "layout/trajectory.hpp"
+#include "star/large_scale_star.hpp"
+#include "topology/paths.hpp"
+
+namespace cairn {
+namespace {
+
+std::vector<Pose2> local_poses(const std::vector<PerceivedScan>& scans, std::size_t first,
+                               std::size_t last) {
+  std::vector<Pose2> poses;
+  for (std::size_t i = first; i <= last; ++i) {
+    poses.push_back(scans[i].fix.T_lpm_robot);
+  }
+  return poses;
+}
+
+/// H(x): rigid before the first visit and after the last, interpolated between.
+void add_trajectory(const Experience& experience, MetricalMap* map) {
+  const std::vector<PerceivedScan>& scans = experience.scans();
+  const std::vector<Visit>& visits = experience.visits();
+  const auto T_global_anchor = [&](std::size_t visit) {
+    const Visit& at = visits[visit];
+    return map->T_global_visit[visit] * at.perceived.T_lpm_place.inverse() *
+           scans[at.anchor_scan].fix.T_lpm_robot;
+  };
+  const Pose2 T_global_first_lpm =
+      map->T_global_visit.front() * visits.front().perceived.T_lpm_place.inverse();
+  for (std::size_t i = 0; i < visits.front().anchor_scan; ++i) {
+    map->trajectory.push_back(T_global_first_lpm * scans[i].fix.T_lpm_robot);
+  }
+  for (std::size_t v = 0; v + 1 < map->T_global_visit.size(); ++v) {
+    const std::vector<Pose2> bent = interpolate_travel(
+        local_poses(scans, visits[v].anchor_scan, visits[v + 1].anchor_scan), T_global_anchor(v),
+        T_global_anchor(v + 1));
+    map->trajectory.insert(map->trajectory.end(), bent.begin(), bent.end() - 1);
+  }
+  map->T_global_lpm =
+      map->T_global_visit.back() * visits.back().perceived.T_lpm_place.inverse();
+  for (std::size_t i = visits.back().anchor_scan; i < scans.size(); ++i) {
+    map->trajectory.push_back(map->T_global_lpm * scans[i].fix.T_lpm_robot);
+  }
+}
+
+/// Outward bearings of a visit's gateway in the place frame.
+std::vector<int> path_of_gateway(const TopologicalMap& map, const std::vector<Path>& paths,
+                                 PlaceId place) {
+  std::vector<int> path_of(static_cast<std::size_t>(map.gateway_count(place)), -1);
+  for (std::size_t p = 0; p < paths.size(); ++p) {
+    for (const PathStop& stop : paths[p].stops) {
+      if (stop.place != place) {
+        continue;
+      }
+      for (const std::size_t slot : {stop.forward_slot, stop.backward_slot}) {
+        const int gateway = map.star(place).slots[slot].gateway;
+        if (gateway >= 0) {
+          path_of[static_cast<std::size_t>(gateway)] = static_cast<int>(p);
+        }
+      }
+    }
+  }
+  return path_of;
+}
+
+GatewayRef gateway_of_place(const TopologicalMap& map, VisitId visit, int gateway) {
+  const VisitedPlace at = map.at_visit(visit);
+  return {at.place, (gateway + at.shift) % map.gateway_count(at.place)};
+}
+
+}  // namespace
+
+Result<MetricalMap> metrical_map(const TopologicalMap& map, const Experience& experience,
+                                 const VisitMatcher& matcher, const LayoutOptions& options) {
+  CAIRN_CHECK(map.visit_count() > 0);
+  LayoutOptions with_covariances = options;
+  with_covariances.covariances = true;
+  Result<PlaceLayout> layout =
+      solve_layout(map.place_count(), matcher.constraints(map), with_covariances);
+  if (!layout) {
+    return layout.error();
+  }
+  MetricalMap metrical;
+  metrical.layout = *std::move(layout);
+  const Pose2 T_global_first = experience.visits().front().perceived.T_lpm_place;
+  for (Pose2& T_global_place : metrical.layout.T_global_place) {
+    T_global_place = T_global_first * T_global_place;
+  }
+  for (int v = 0; v < map.visit_count(); ++v) {
+    const std::size_t place = map.at_visit(VisitId{v}).place.index();
+    metrical.T_global_visit.push_back(metrical.layout.T_global_place[place] *
+                                      matcher.T_place_visit(map, VisitId{v}).mean);
+  }
+  add_trajectory(experience, &metrical);
+  return metrical;
+}
+
+std::vector<MappedPlace> mapped_places(const TopologicalMap& map, const Experience& experience,
+                                       const PlaceLayout& layout) {
+  const std::vector<Path> paths = trace_paths(map);
+  std::vector<MappedPlace> places;
+  for (int p = 0; p < map.place_count(); ++p) {
+    const PlaceId id{p};
+    const PlaceVisit& first = experience.visits()[map.first_visit(id).index()].perceived;
+    const std::vector<int> path_of = path_of_gateway(map, paths, id);
+    MappedPlace place;
+    place.id = p;
+    place.T_global_place = {layout.T_global_place[id.index()], layout.covariances[id.index()]};
+    place.star = large_scale_text(map.star(id), 0);
+    for (int g = 0; g < map.gateway_count(id); ++g) {
+      const auto index = static_cast<std::size_t>(g);
+      place.gateways.push_back({first.neighbourhood.gateways[index],
+                                map.is_pending({id, g}), path_of[index]});
+    }
+    places.push_back(std::move(place));
+  }
+  for (int v = 0; v < map.visit_count(); ++v) {
+    ++places[map.at_visit(VisitId{v}).place.index()].visit_count;
+  }
+  return places;
+}
+
+std::vector<MappedSegment> mapped_segments(const TopologicalMap& map,
+                                           const Experience& experience,
+                                           const PlaceLayout& layout,
+                                           const std::vector<TravelConstraint>& constraints) {
+  std::vector<MappedSegment> segments;
+  std::map<std::pair<GatewayRef, GatewayRef>, std::size_t> known;
+  for (int v = 0; v + 1 < map.visit_count(); ++v) {
+    const PlaceVisit& visit = experience.visits()[static_cast<std::size_t>(v)].perceived;
+    const PlaceVisit& next = experience.visits()[static_cast<std::size_t>(v) + 1].perceived;
+    GatewayRef from = gateway_of_place(map, VisitId{v}, departure_gateway(visit, next));
+    GatewayRef to =
+        gateway_of_place(map, VisitId{v + 1}, std::max(next.arrival_gateway, 0));
+    const bool is_reversed = to < from;
+    if (is_reversed) {
+      std::swap(from, to);
+    }
+    const auto [entry, is_new] = known.emplace(std::make_pair(from, to), segments.size());
+    if (is_new) {
+      MappedSegment segment;
+      segment.from_place = from.place.value;
+      segment.from_gateway = from.gateway;
+      segment.to_place = to.place.value;
+      segment.to_gateway = to.gateway;
+      const GaussianPose& travelled = constraints[static_cast<std::size_t>(v)].T_from_to;
+      const Matrix3d covariance =
+          is_reversed ? inverted(travelled).covariance : travelled.covariance;
+      segment.T_from_to = {layout.T_global_place[from.place.index()].inverse() *
+                               layout.T_global_place[to.place.index()],
+                           covariance};
+      segments.push_back(segment);
+    }
+    MappedSegment& segment = segments[entry->second];
+    const double length_m = experience.travels()[static_cast<std::size_t>(v)].length_m;
+    segment.length_m = is_new ? length_m : std::min(segment.length_m, length_m);
+    ++segment.travel_count;
+  }
+  return segments;
+}
+
+std::vector<HypothesisSummary> summaries(const HypothesisTree& tree, std::size_t count) {
+  const std::vector<double> probabilities = tree.probabilities();
+  std::vector<HypothesisSummary> all;
+  for (std::size_t i = 0; i < std::min(count, tree.fringe().size()); ++i) {
+    const Hypothesis& hypothesis = tree.fringe()[i];
+    all.push_back({hypothesis.id.value, hypothesis.parent.value, hypothesis.log_posterior(),
+                   probabilities[i], hypothesis.map.place_count(), hypothesis.map.path_count(),
+                   hypothesis.map.closure_count(), hypothesis.map.pending_count()});
+  }
+  return all;
+}
+
+int departure_gateway(const PlaceVisit& visit, const PlaceVisit& next) {
+  if (visit.departure_gateway >= 0) {
+    return visit.departure_gateway;
+  }
+  const Vector2d p_place_next = visit.T_lpm_place.inverse() * next.T_lpm_place.translation();
+  const std::vector<Gateway>& gateways = visit.neighbourhood.gateways;
+  const auto alignment = [&](const Gateway& gateway) {
+    return gateway.outward().dot(p_place_next - gateway.middle);
+  };
+  const auto best = std::max_element(
+      gateways.begin(), gateways.end(),
+      [&](const Gateway& a, const Gateway& b) { return alignment(a) < alignment(b); });
+  return static_cast<int>(best - gateways.begin());
+}
+
+}  // namespace cairn

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "geometry/gaussian_pose.hpp"
+#include "lpm/local_mapper.hpp"
+#include "place/place_detector.hpp"
+#include "sensing/laser_scan.hpp"
+
+namespace cairn {
+
+/// What the local layer made of one scan.
+struct PerceivedScan {
+  std::shared_ptr<const LaserScan> scan;
+  LocalFix fix;
+};
+
+/// A visit, and the scan at which the robot was closest to the origin of the place: the end of one
+/// travel and the start of the next.
+struct Visit {
+  PlaceVisit perceived;
+  std::size_t anchor_scan = 0;
+};
+
+/// The travel from one visit to the next.
+struct Travel {
+  GaussianPose T_from_to;  ///< F(lambda): place frame of the later visit in that of the earlier one.
+  double length_m = 0.0;   ///< Along the way.
+};
+
+/// All that is remembered: every perceived scan and every visit, in order. The journal is this, on
+/// disk; everything global is a fold over it.
+class Experience {
+ public:
+  void add(PerceivedScan scan);
+
+  /// The visit that the detector has just closed, with its anchor among the scans since the last
+  /// visit's.
+  /// @pre at least one scan has been added
+  [[nodiscard]] Visit anchored(PlaceVisit visit) const;
+
+  /// Remembers a visit; from the second one on there is a travel to it.
+  /// @pre its anchor is not before the last visit's and is a scan that has been added
+  void add(Visit visit);
+
+  [[nodiscard]] const std::vector<PerceivedScan>& scans() const { return scans_; }
+  [[nodiscard]] const std::vector<Visit>& visits() const { return visits_; }
+  /// Travel i leads from visit i to visit i + 1.
+  [[nodiscard]] const std::vector<Travel>& travels() const { return travels_; }
+
+ private:
+  [[nodiscard]] Travel travel_between(const Visit& from, const Visit& to) const;
+
+  std::vector<PerceivedScan> scans_;
+  std::vector<Visit> visits_;
+  std::vector<Travel> travels_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/gaussian_pose.hpp"
+#include "global_map/global_map.hpp"
+#include "place/gateway.hpp"
+#include "sensing/laser_scan.hpp"
+#include "sensing/time.hpp"
+
+namespace cairn {
+
+/// A gateway of a place of the best map, in the place frame.
+struct MappedGateway {
+  Gateway perceived;
+  bool is_pending = true;
+  int path = -1;
+};
+
+/// A place of the best map.
+struct MappedPlace {
+  int id = -1;
+  GaussianPose T_global_place;
+  std::string star;  ///< Fig. 3(f) of Kuipers et al., ICRA 2004.
+  int visit_count = 0;
+  std::vector<MappedGateway> gateways;  ///< Clockwise.
+};
+
+/// A path segment of the best map: leaving one place by a gateway leads to another.
+struct MappedSegment {
+  int from_place = -1;
+  int from_gateway = -1;
+  int to_place = -1;
+  int to_gateway = -1;
+  int travel_count = 0;
+  double length_m = 0.0;
+  GaussianPose T_from_to;
+};
+
+/// One live hypothesis, for people who watch.
+struct HypothesisSummary {
+  std::int64_t id = -1;
+  std::int64_t parent = -1;
+  double log_posterior = 0.0;
+  double probability = 0.0;  ///< Share among the live ones.
+  int places = 0;
+  int paths = 0;
+  int closures = 0;
+  int pending = 0;
+};
+
+/// Everything that is published about the map, as one immutable picture: queries, the global map and
+/// the documents are made from it on other threads.
+struct MapState {
+  TimePoint time;                     ///< Of the last scan.
+  std::int64_t topology_revision = 0;
+  std::int64_t visit_count = 0;
+  std::int64_t hypothesis = -1;       ///< The best one; -1: no visit yet.
+  double probability = 0.0;
+  int at_place = -1;                  ///< Where the last visit was.
+  int path_count = 0;
+  std::vector<MappedPlace> places;
+  std::vector<MappedSegment> segments;
+  std::vector<HypothesisSummary> hypotheses;  ///< Best first; the best ones only.
+  std::int64_t live_count = 0;
+  std::int64_t refuted_count = 0;
+  std::int64_t guarantee_given_up_at = -1;    ///< Visit number; -1: every consistent map is alive.
+  std::string guarantee_reason;
+  std::vector<PosedScan> trajectory;          ///< Every scan so far: H(x).
+  Pose2 T_global_lpm;                         ///< Where the frame of the local map lies now.
+};
+
+}  // namespace cairn

@@ -1,0 +1,285 @@
+#include "service/mapping_service.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "base/check.hpp"
+#include "lpm/local_mapper.hpp"
+#include "place/place_detector.hpp"
+#include "service/best_map.hpp"
+#include "service/visit_matcher.hpp"
+
+namespace cairn {
+namespace {
+
+/// Hypotheses that are told to clients; all live ones are counted.
+constexpr std::size_t kToldHypotheses = 50;
+
+Action action_between(const PlaceVisit& from, const PlaceVisit& to) {
+  const int gateways = static_cast<int>(from.neighbourhood.gateways.size());
+  const int arrival = std::max(from.arrival_gateway, 0);
+  return {(departure_gateway(from, to) - arrival + gateways) % gateways};
+}
+
+/// Ways to extend a hypothesis that this arrival has ruled out.
+std::int64_t refuted_by(const ExtendReport& report) {
+  return report.links_contradicted + report.closures_of_other_view +
+         report.closures_of_other_face + report.closures_repeating_a_place +
+         report.closures_against_regions + report.refuted_by_evidence;
+}
+
+}  // namespace
+
+/// The stages and what flows between them.
+class MappingService::Pipeline {
+ public:
+  explicit Pipeline(const ServiceOptions& options)
+      : options_(options),
+        joiner_(options.joiner),
+        local_mapper_(options.lpm),
+        place_detector_(options.place),
+        matcher_(experience_, options.recognition),
+        tree_(options.topology, evidence()) {}
+
+  void join(const OdometrySample& sample) { joiner_.add(sample); }
+  void join(LaserScan scan) { joiner_.add(std::move(scan)); }
+  void flush() { joiner_.flush(); }
+
+  /// The data's way: scan and odometry → pose in the local map → place → experience → hypotheses →
+  /// layout and trajectory.
+  Updates perceive_joined() {
+    Updates updates;
+    while (std::optional<JoinedScan> joined = joiner_.next()) {
+      const LocalFix fix = local_mapper_.absorb(*joined);
+      PerceivedScan perceived{std::make_shared<const LaserScan>(std::move(joined->scan)), fix};
+      experience_.add(perceived);
+      updates.scans.push_back(std::move(perceived));
+      detect_places(fix, &updates);
+    }
+    return updates;
+  }
+
+  void close_open_visits(Updates* updates) {
+    for (PlaceVisit& visit : place_detector_.finish()) {
+      take_up(experience_.anchored(std::move(visit)), updates);
+    }
+  }
+
+  void recall(PerceivedScan scan) { experience_.add(std::move(scan)); }
+
+  Status recall(Visit visit) {
+    const std::size_t earliest =
+        experience_.visits().empty() ? 0 : experience_.visits().back().anchor_scan;
+    if (visit.anchor_scan < earliest || visit.anchor_scan >= experience_.scans().size()) {
+      return Error{ErrorCode::kInvalidValue,
+                   "visit " + std::to_string(experience_.visits().size()) + " is anchored at scan " +
+                       std::to_string(visit.anchor_scan) + ", expected one in [" +
+                       std::to_string(earliest) + ", " +
+                       std::to_string(experience_.scans().size()) + ")"};
+    }
+    Updates unused;
+    take_up(std::move(visit), &unused);
+    return {};
+  }
+
+  void resume();
+
+  [[nodiscard]] std::shared_ptr<const MapState> state() const;
+
+  [[nodiscard]] const Experience& experience() const { return experience_; }
+  [[nodiscard]] const HypothesisTree& tree() const { return tree_; }
+  [[nodiscard]] const OccupancyGrid& local_map() const { return local_mapper_.grid(); }
+  [[nodiscard]] const JoinerCounters& joiner_counters() const { return joiner_.counters(); }
+  [[nodiscard]] const PlaceDetectorReport& place_report() const {
+    return place_detector_.report();
+  }
+  [[nodiscard]] const Pose2& T_global_lpm() const { return metrical_.T_global_lpm; }
+
+ private:
+  [[nodiscard]] Evidence evidence() const {
+    Evidence evidence;
+    evidence.same_place = [this](const TopologicalMap& before, VisitId visit, PlaceId same_as,
+                                 int shift) {
+      return matcher_.compare(before.first_visit(same_as), visit, shift).log_likelihood_ratio;
+    };
+    // The densities' normalisation is left out: it is the same for all maps of one experience.
+    evidence.layout = [this](const TopologicalMap& map) {
+      const Result<PlaceLayout> layout =
+          solve_layout(map.place_count(), matcher_.constraints(map), options_.layout);
+      return layout ? -0.5 * layout->chi2 : -std::numeric_limits<double>::infinity();
+    };
+    return evidence;
+  }
+
+  void detect_places(const LocalFix& fix, Updates* updates) {
+    // Stamps of recorded logs may step back a little; the order of arrival is the order of events.
+    detector_time_ = std::max(detector_time_, fix.time);
+    for (PlaceEvent& event :
+         place_detector_.observe(detector_time_, fix.T_lpm_robot, local_mapper_.grid())) {
+      if (event.visit) {
+        take_up(experience_.anchored(*event.visit), updates);
+      }
+      updates->events.push_back(std::move(event));
+    }
+  }
+
+  /// One step of experience: the tree grows, the best hypothesis is laid out.
+  void take_up(Visit visit, Updates* updates) {
+    if (visit.perceived.neighbourhood.gateways.empty() || is_known(visit.perceived)) {
+      return;
+    }
+    const std::vector<Visit>& visits = experience_.visits();
+    const VisitId id{static_cast<int>(visits.size())};
+    const View view{visit.perceived.neighbourhood.star,
+                    std::max(visit.perceived.arrival_gateway, 0), id};
+    experience_.add(visit);
+    if (!tree_.is_started()) {
+      tree_.start(view);
+    } else {
+      const Action action = action_between(visits[id.index() - 1].perceived, visit.perceived);
+      const ExtendReport report = tree_.extend(action, view);
+      refuted_ += refuted_by(report);
+      updates->extensions.push_back(report);
+    }
+    ++revision_;
+    lay_out();
+    updates->visits.push_back(std::move(visit));
+    updates->is_map_changed = true;
+  }
+
+  /// After a restart the detector sees the last visit's place once more.
+  [[nodiscard]] bool is_known(const PlaceVisit& visit) const {
+    return !experience_.visits().empty() && resumed_ &&
+           visit.entered <= experience_.visits().back().perceived.left &&
+           visit.left <= experience_.visits().back().perceived.left;
+  }
+
+  void lay_out() {
+    const Hypothesis& best = tree_.fringe().front();
+    Result<MetricalMap> metrical =
+        metrical_map(best.map, experience_, matcher_, options_.layout);
+    // A layout that does not converge leaves the last one standing; the next visit tries again.
+    if (metrical) {
+      metrical_ = *std::move(metrical);
+      laid_out_ = best;
+    }
+  }
+
+  ServiceOptions options_;
+  ScanJoiner joiner_;
+  LocalMapper local_mapper_;
+  PlaceDetector place_detector_;
+  Experience experience_;
+  VisitMatcher matcher_;
+  HypothesisTree tree_;
+  std::optional<Hypothesis> laid_out_;  ///< The best one, as of the last layout.
+  MetricalMap metrical_;                ///< Of that hypothesis.
+  TimePoint detector_time_{};
+  std::int64_t revision_ = 0;
+  std::int64_t refuted_ = 0;
+  bool resumed_ = false;
+};
+
+void MappingService::Pipeline::resume() {
+  const std::vector<PerceivedScan>& scans = experience_.scans();
+  if (scans.empty()) {
+    return;
+  }
+  resumed_ = true;
+  // The local map is made anew from the scans that it would still hold; the detector looks on from
+  // the last visit's anchor, as it emits a visit only after the robot has reached the next place.
+  const std::size_t looks_from =
+      experience_.visits().empty() ? 0 : experience_.visits().back().anchor_scan;
+  std::size_t first = looks_from;
+  double travel_m = 0.0;
+  while (first > 0 && travel_m < options_.lpm.map.memory_travel_m) {
+    travel_m += scans[first].fix.motion.mean.translation().norm();
+    --first;
+  }
+  for (std::size_t i = first; i < scans.size(); ++i) {
+    local_mapper_.restore(*scans[i].scan, scans[i].fix.T_lpm_robot);
+    if (i >= looks_from) {
+      Updates unused;
+      detect_places(scans[i].fix, &unused);
+    }
+  }
+}
+
+std::shared_ptr<const MapState> MappingService::Pipeline::state() const {
+  auto state = std::make_shared<MapState>();
+  const std::vector<PerceivedScan>& scans = experience_.scans();
+  state->topology_revision = revision_;
+  state->visit_count = static_cast<std::int64_t>(experience_.visits().size());
+  state->T_global_lpm = metrical_.T_global_lpm;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    state->trajectory.push_back({scans[i].scan,
+                                 i < metrical_.trajectory.size()
+                                     ? metrical_.trajectory[i]
+                                     : metrical_.T_global_lpm * scans[i].fix.T_lpm_robot});
+  }
+  if (!scans.empty()) {
+    state->time = scans.back().fix.time;
+  }
+  if (!laid_out_) {
+    return state;
+  }
+  const Hypothesis& best = *laid_out_;
+  state->hypothesis = best.id.value;
+  state->at_place = best.map.position().place.value;
+  state->path_count = best.map.path_count();
+  state->places = mapped_places(best.map, experience_, metrical_.layout);
+  state->segments =
+      mapped_segments(best.map, experience_, metrical_.layout, matcher_.constraints(best.map));
+  state->hypotheses = summaries(tree_, kToldHypotheses);
+  state->probability = state->hypotheses.front().probability;
+  state->live_count = static_cast<std::int64_t>(tree_.fringe().size());
+  state->refuted_count = refuted_;
+  if (tree_.guarantee_given_up()) {
+    state->guarantee_given_up_at = tree_.guarantee_given_up()->visit.value;
+    state->guarantee_reason = tree_.guarantee_given_up()->reason;
+  }
+  return state;
+}
+
+MappingService::MappingService(const ServiceOptions& options)
+    : pipeline_(std::make_unique<Pipeline>(options)) {
+  CAIRN_CHECK(validate(options).ok());
+}
+
+MappingService::~MappingService() = default;
+
+Updates MappingService::absorb(const OdometrySample& sample) {
+  pipeline_->join(sample);
+  return pipeline_->perceive_joined();
+}
+
+Updates MappingService::absorb(LaserScan scan) {
+  pipeline_->join(std::move(scan));
+  return pipeline_->perceive_joined();
+}
+
+Updates MappingService::finish() {
+  pipeline_->flush();
+  Updates updates = pipeline_->perceive_joined();
+  pipeline_->close_open_visits(&updates);
+  return updates;
+}
+
+void MappingService::recall(PerceivedScan scan) { pipeline_->recall(std::move(scan)); }
+Status MappingService::recall(Visit visit) { return pipeline_->recall(std::move(visit)); }
+void MappingService::resume() { pipeline_->resume(); }
+std::shared_ptr<const MapState> MappingService::state() const { return pipeline_->state(); }
+const Experience& MappingService::experience() const { return pipeline_->experience(); }
+const HypothesisTree& MappingService::tree() const { return pipeline_->tree(); }
+const OccupancyGrid& MappingService::local_map() const { return pipeline_->local_map(); }
+const JoinerCounters& MappingService::joiner_counters() const {
+  return pipeline_->joiner_counters();
+}
+const PlaceDetectorReport& MappingService::place_report() const {
+  return pipeline_->place_report();
+}
+const Pose2& MappingService::T_global_lpm() const { return pipeline_->T_global_lpm(); }
+
+}  // namespace cairn

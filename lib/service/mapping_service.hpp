@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "service/experience.hpp"
+#include "service/map_state.hpp"
+#include "service/options.hpp"
+#include "sensing/odometry.hpp"
+#include "sensing/scan_joiner.hpp"
+#include "topology/hypothesis_tree.hpp"
+
+namespace cairn {
+
+/// What one input made known. In the order in which it must be journalled: scans, then visits.
+struct Updates {
+  std::vector<PerceivedScan> scans;
+  std::vector<PlaceEvent> events;
+  std::vector<Visit> visits;            ///< Closed ones, which extended the map.
+  std::vector<ExtendReport> extensions;  ///< One for each visit but the very first.
+  bool is_map_changed = false;
+};
+
+/// The whole pipeline from readings to the map. The page on which the data's way reads straight
+/// through; the daemon feeds and drains it, live or from a log, by the same calls.
+///
+/// Pure: no clock, no thread, no file. The same inputs give the same outputs, bit for bit, and the
+/// journal of its updates, recalled, gives the same map.
+class MappingService {
+ public:
+  /// @pre validate(options).ok()
+  explicit MappingService(const ServiceOptions& options);
+  ~MappingService();
+  MappingService(const MappingService&) = delete;
+  MappingService& operator=(const MappingService&) = delete;
+  MappingService(MappingService&&) = delete;
+  MappingService& operator=(MappingService&&) = delete;
+
+  /// @pre the value is valid
+  Updates absorb(const OdometrySample& sample);
+  Updates absorb(LaserScan scan);
+  /// The input has ended: whatever waits is taken up, and the visit that is still open.
+  Updates finish();
+
+  /// Takes the journal up again, in its order; afterwards `resume` once. Then everything goes on as
+  /// if there had been no restart.
+  void recall(PerceivedScan scan);
+  /// kInvalidValue for a visit that does not follow from the scans recalled so far.
+  Status recall(Visit visit);
+  void resume();
+
+  /// The best map with everything that is published of it.
+  [[nodiscard]] std::shared_ptr<const MapState> state() const;
+
+  [[nodiscard]] const Experience& experience() const;
+  [[nodiscard]] const HypothesisTree& tree() const;
+  [[nodiscard]] const OccupancyGrid& local_map() const;
+  [[nodiscard]] const JoinerCounters& joiner_counters() const;
+  [[nodiscard]] const PlaceDetectorReport& place_report() const;
+  /// Where the frame of the local map lies in the best map's frame.
+  [[nodiscard]] const Pose2& T_global_lpm() const;
+
+ private:
+  class Pipeline;
+  std::unique_ptr<Pipeline> pipeline_;
+};
+
+}  // namespace cairn

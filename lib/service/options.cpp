@@ -1,0 +1,24 @@
+#include "service/options.hpp"
+
+#include <string>
+
+namespace cairn {
+
+Status validate(const ServiceOptions& options) {
+  std::string complaints;
+  const Status stages[] = {validate(options.joiner),      validate(options.lpm),
+                           validate(options.place),       validate(options.recognition),
+                           validate(options.topology),    validate(options.layout),
+                           validate(options.global_map),  validate(options.path)};
+  for (const Status& stage : stages) {
+    if (!stage) {
+      complaints += (complaints.empty() ? "" : "; ") + stage.error().message;
+    }
+  }
+  if (complaints.empty()) {
+    return {};
+  }
+  return Error{ErrorCode::kInvalidValue, complaints};
+}
+
+}  // namespace cairn

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "global_map/global_map.hpp"
+#include "layout/place_layout.hpp"
+#include "lpm/lpm_options.hpp"
+#include "lpm/map_matching.hpp"
+#include "place/place_options.hpp"
+#include "planning/path.hpp"
+#include "sensing/scan_joiner.hpp"
+#include "topology/topology_options.hpp"
+
+namespace cairn {
+
+/// Everything that tunes what cairn computes, stage by stage.
+struct ServiceOptions {
+  JoinerOptions joiner;
+  LpmOptions lpm;
+  PlaceOptions place;
+  MapMatchOptions recognition;  ///< Comparison of two visits' local maps.
+  TopologyOptions topology;
+  LayoutOptions layout;
+  GlobalMapOptions global_map;
+  PathOptions path;
+
+  ServiceOptions() {
+    // Stars read from noisy maps need the posterior; see docs/decisions/0005-order-by-posterior.md.
+    topology.preference = Preference::kPosterior;
+    topology.max_hypotheses = 200;
+    topology.log_prior_new_place = -8.0;
+  }
+};
+
+/// Names every field of every stage that is out of range, with its value.
+[[nodiscard]] Status validate(const ServiceOptions& options);
+
+}  // namespace cairn

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "layout/place_layout.hpp"
+#include "place/recognition.hpp"
+#include "service/experience.hpp"
+#include "topology/topological_map.hpp"
+
+namespace cairn {
+
+/// Compares visits by their local maps, each pair under each alignment once, and turns a topological
+/// map into what the layout needs to know of it.
+class VisitMatcher {
+ public:
+  /// @param experience must outlive this object
+  VisitMatcher(const Experience& experience, const MapMatchOptions& options)
+      : experience_(experience), options_(options) {}
+
+  /// Gateway j of the later visit being gateway (j + shift) mod n of the known one.
+  /// @pre both visits have the same number of gateways, and are in the experience
+  [[nodiscard]] const Recognition& compare(VisitId known, VisitId visit, int shift) const;
+
+  /// The place frame of a visit in the frame of the place it was to: that of the place's first visit.
+  [[nodiscard]] GaussianPose T_place_visit(const TopologicalMap& map, VisitId visit) const;
+
+  /// F(lambda) of every travel, between the places that the map says they joined.
+  [[nodiscard]] std::vector<TravelConstraint> constraints(const TopologicalMap& map) const;
+
+ private:
+  const Experience& experience_;
+  MapMatchOptions options_;
+  mutable std::map<std::tuple<VisitId, VisitId, int>, Recognition> compared_;  ///< A memo.
+};
+
+}  // namespace cairn
