@@ -32,14 +32,16 @@ class MapFile {
   Status append(const Visit& visit);
   /// From here on, all that was appended is on the disk.
   Status commit();
+  /// Forgets what was appended since the last commit, for instance after a full disk.
+  void roll_back();
 
   /// What was last published. @param what as in snapshot_request_t
   Status write_document(int what, std::int64_t revision, const std::vector<std::uint8_t>& bytes);
 
   /// Gives the journal in the order in which it was written. A damaged row ends it, with an error
-  /// that names the row; what was read until then stands.
+  /// that names the row; what was read until then stands. A visit that is not accepted ends it too.
   Status read_journal(const std::function<void(PerceivedScan)>& take_scan,
-                      const std::function<void(Visit)>& take_visit);
+                      const std::function<Status(Visit)>& take_visit);
 
   /// Names this map for clients: the time of the first scan; 0 before it.
   [[nodiscard]] std::int64_t map_id() const { return map_id_; }

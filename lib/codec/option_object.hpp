@@ -27,8 +27,8 @@ using Json = nlohmann::ordered_json;
 class OptionObject {
  public:
   struct Range {
-    double low = 0.0;
-    double high = 0.0;
+    double low;
+    double high;
   };
 
   OptionObject(std::string key, std::string meaning)

@@ -148,6 +148,8 @@ std::vector<MappedSegment> mapped_segments(const TopologicalMap& map,
       segment.from_gateway = from.gateway;
       segment.to_place = to.place.value;
       segment.to_gateway = to.gateway;
+      segment.first_scan = experience.visits()[static_cast<std::size_t>(v)].anchor_scan;
+      segment.last_scan = experience.visits()[static_cast<std::size_t>(v) + 1].anchor_scan;
       const GaussianPose& travelled = constraints[static_cast<std::size_t>(v)].T_from_to;
       const Matrix3d covariance =
           is_reversed ? inverted(travelled).covariance : travelled.covariance;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -24,6 +25,7 @@ struct MappedGateway {
 /// A place of the best map.
 struct MappedPlace {
   int id = -1;
+  std::string name;            ///< Given by a person; empty otherwise.
   GaussianPose T_global_place;
   std::string star;  ///< Fig. 3(f) of Kuipers et al., ICRA 2004.
   int visit_count = 0;
@@ -37,8 +39,10 @@ struct MappedSegment {
   int to_place = -1;
   int to_gateway = -1;
   int travel_count = 0;
-  double length_m = 0.0;
+  double length_m = 0.0;       ///< Of the shortest travel.
   GaussianPose T_from_to;
+  std::size_t first_scan = 0;  ///< Of one travel along it, in MapState::trajectory.
+  std::size_t last_scan = 0;
 };
 
 /// One live hypothesis, for people who watch.
@@ -63,6 +67,8 @@ struct MapState {
   double probability = 0.0;
   int at_place = -1;                  ///< Where the last visit was.
   int path_count = 0;
+  int closure_count = 0;
+  std::vector<int> place_of_visit;    ///< By visit. Places are numbered as they were first met.
   std::vector<MappedPlace> places;
   std::vector<MappedSegment> segments;
   std::vector<HypothesisSummary> hypotheses;  ///< Best first; the best ones only.

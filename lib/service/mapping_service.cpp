@@ -35,8 +35,9 @@ std::int64_t refuted_by(const ExtendReport& report) {
 /// The stages and what flows between them.
 class MappingService::Pipeline {
  public:
-  explicit Pipeline(const ServiceOptions& options)
+  Pipeline(const ServiceOptions& options, StageObserver observer)
       : options_(options),
+        observer_(std::move(observer)),
         joiner_(options.joiner),
         local_mapper_(options.lpm),
         place_detector_(options.place),
@@ -51,23 +52,35 @@ class MappingService::Pipeline {
   /// layout and trajectory.
   Updates perceive_joined() {
     Updates updates;
+    enter(Stage::kJoining);
     while (std::optional<JoinedScan> joined = joiner_.next()) {
+      enter(Stage::kLocalMapping);
       const LocalFix fix = local_mapper_.absorb(*joined);
       PerceivedScan perceived{std::make_shared<const LaserScan>(std::move(joined->scan)), fix};
+      since_anchor_ = compounded(since_anchor_, fix.motion);
       experience_.add(perceived);
       updates.scans.push_back(std::move(perceived));
       detect_places(fix, &updates);
+      enter(Stage::kJoining);
     }
+    enter(Stage::kIdle);
     return updates;
   }
 
   void close_open_visits(Updates* updates) {
+    if (experience_.scans().empty()) {
+      return;
+    }
     for (PlaceVisit& visit : place_detector_.finish()) {
       take_up(experience_.anchored(std::move(visit)), updates);
     }
+    enter(Stage::kIdle);
   }
 
-  void recall(PerceivedScan scan) { experience_.add(std::move(scan)); }
+  void recall(PerceivedScan scan) {
+    since_anchor_ = compounded(since_anchor_, scan.fix.motion);
+    experience_.add(std::move(scan));
+  }
 
   Status recall(Visit visit) {
     const std::size_t earliest =
@@ -95,7 +108,9 @@ class MappingService::Pipeline {
   [[nodiscard]] const PlaceDetectorReport& place_report() const {
     return place_detector_.report();
   }
-  [[nodiscard]] const Pose2& T_global_lpm() const { return metrical_.T_global_lpm; }
+  [[nodiscard]] GaussianPose T_global_robot() const {
+    return compounded(T_global_anchor_, since_anchor_);
+  }
 
  private:
   [[nodiscard]] Evidence evidence() const {
@@ -114,6 +129,7 @@ class MappingService::Pipeline {
   }
 
   void detect_places(const LocalFix& fix, Updates* updates) {
+    enter(Stage::kPlaces);
     // Stamps of recorded logs may step back a little; the order of arrival is the order of events.
     detector_time_ = std::max(detector_time_, fix.time);
     for (PlaceEvent& event :
@@ -134,6 +150,7 @@ class MappingService::Pipeline {
     const VisitId id{static_cast<int>(visits.size())};
     const View view{visit.perceived.neighbourhood.star,
                     std::max(visit.perceived.arrival_gateway, 0), id};
+    enter(Stage::kTopology);
     experience_.add(visit);
     if (!tree_.is_started()) {
       tree_.start(view);
@@ -144,7 +161,9 @@ class MappingService::Pipeline {
       updates->extensions.push_back(report);
     }
     ++revision_;
+    enter(Stage::kLayout);
     lay_out();
+    enter(Stage::kPlaces);
     updates->visits.push_back(std::move(visit));
     updates->is_map_changed = true;
   }
@@ -164,10 +183,31 @@ class MappingService::Pipeline {
     if (metrical) {
       metrical_ = *std::move(metrical);
       laid_out_ = best;
+      anchor_robot();
+    }
+  }
+
+  /// From here on the robot's pose is this place's, and the motions since.
+  void anchor_robot() {
+    const std::vector<PerceivedScan>& scans = experience_.scans();
+    const std::size_t anchor = experience_.visits().back().anchor_scan;
+    const std::size_t place = laid_out_->map.position().place.index();
+    T_global_anchor_ = {metrical_.T_global_lpm * scans[anchor].fix.T_lpm_robot,
+                        metrical_.layout.covariances[place] + scans[anchor].fix.covariance};
+    since_anchor_ = {};
+    for (std::size_t i = anchor + 1; i < scans.size(); ++i) {
+      since_anchor_ = compounded(since_anchor_, scans[i].fix.motion);
+    }
+  }
+
+  void enter(Stage stage) const {
+    if (observer_) {
+      observer_(stage);
     }
   }
 
   ServiceOptions options_;
+  StageObserver observer_;
   ScanJoiner joiner_;
   LocalMapper local_mapper_;
   PlaceDetector place_detector_;
@@ -176,6 +216,8 @@ class MappingService::Pipeline {
   HypothesisTree tree_;
   std::optional<Hypothesis> laid_out_;  ///< The best one, as of the last layout.
   MetricalMap metrical_;                ///< Of that hypothesis.
+  GaussianPose T_global_anchor_;        ///< The robot at the last visit's anchor.
+  GaussianPose since_anchor_;           ///< Its motion since.
   TimePoint detector_time_{};
   std::int64_t revision_ = 0;
   std::int64_t refuted_ = 0;
@@ -229,6 +271,10 @@ std::shared_ptr<const MapState> MappingService::Pipeline::state() const {
   state->hypothesis = best.id.value;
   state->at_place = best.map.position().place.value;
   state->path_count = best.map.path_count();
+  state->closure_count = best.map.closure_count();
+  for (int v = 0; v < best.map.visit_count(); ++v) {
+    state->place_of_visit.push_back(best.map.at_visit(VisitId{v}).place.value);
+  }
   state->places = mapped_places(best.map, experience_, metrical_.layout);
   state->segments =
       mapped_segments(best.map, experience_, metrical_.layout, matcher_.constraints(best.map));
@@ -243,8 +289,8 @@ std::shared_ptr<const MapState> MappingService::Pipeline::state() const {
   return state;
 }
 
-MappingService::MappingService(const ServiceOptions& options)
-    : pipeline_(std::make_unique<Pipeline>(options)) {
+MappingService::MappingService(const ServiceOptions& options, StageObserver observer)
+    : pipeline_(std::make_unique<Pipeline>(options, std::move(observer))) {
   CAIRN_CHECK(validate(options).ok());
 }
 
@@ -280,6 +326,6 @@ const JoinerCounters& MappingService::joiner_counters() const {
 const PlaceDetectorReport& MappingService::place_report() const {
   return pipeline_->place_report();
 }
-const Pose2& MappingService::T_global_lpm() const { return pipeline_->T_global_lpm(); }
+GaussianPose MappingService::T_global_robot() const { return pipeline_->T_global_robot(); }
 
 }  // namespace cairn

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -23,6 +24,12 @@ struct Updates {
   bool is_map_changed = false;
 };
 
+/// The stages of the pipeline, for whoever measures them.
+enum class Stage { kJoining, kLocalMapping, kPlaces, kTopology, kLayout, kIdle };
+
+/// Told when a stage begins; kIdle when the call ends. The library itself reads no clock.
+using StageObserver = std::function<void(Stage)>;
+
 /// The whole pipeline from readings to the map. The page on which the data's way reads straight
 /// through; the daemon feeds and drains it, live or from a log, by the same calls.
 ///
@@ -31,7 +38,7 @@ struct Updates {
 class MappingService {
  public:
   /// @pre validate(options).ok()
-  explicit MappingService(const ServiceOptions& options);
+  explicit MappingService(const ServiceOptions& options, StageObserver observer = {});
   ~MappingService();
   MappingService(const MappingService&) = delete;
   MappingService& operator=(const MappingService&) = delete;
@@ -59,8 +66,9 @@ class MappingService {
   [[nodiscard]] const OccupancyGrid& local_map() const;
   [[nodiscard]] const JoinerCounters& joiner_counters() const;
   [[nodiscard]] const PlaceDetectorReport& place_report() const;
-  /// Where the frame of the local map lies in the best map's frame.
-  [[nodiscard]] const Pose2& T_global_lpm() const;
+  /// Where the robot is in the frame of the best map, as of the last scan: the place of the last
+  /// visit and the dead reckoning since, compounded.
+  [[nodiscard]] GaussianPose T_global_robot() const;
 
  private:
   class Pipeline;

@@ -1,0 +1,423 @@
+#include "runtime/daemon.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <deque>
+#include <fstream>
+#include <memory>
+#include <random>
+#include <utility>
+
+#include <poll.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include "runtime/mapping_thread.hpp"
+#include "runtime/planner.hpp"
+#include "runtime/publisher.hpp"
+#include "runtime/solver_thread.hpp"
+#include "runtime/stop_signal.hpp"
+#include "runtime/supervisor.hpp"
+#include "runtime/version.hpp"
+#include "wire/udp_drops.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr int kProtocolVersion = 1;
+constexpr std::int64_t kStatusEvery_us = 1'000'000;
+constexpr std::int64_t kSensorOld_us = 1'000'000;
+
+std::int64_t new_boot_id() {
+  std::random_device random;
+  std::int64_t id = 0;
+  while (id <= 0) {
+    id = (std::int64_t{random()} << 31) ^ std::int64_t{random()} ^ wall_utime();
+  }
+  return id;
+}
+
+float resident_mb() {
+  long pages = 0;
+  long resident = 0;
+  std::ifstream("/proc/self/statm") >> pages >> resident;
+  return static_cast<float>(resident) * static_cast<float>(sysconf(_SC_PAGESIZE)) / 1048576.0F;
+}
+
+/// How long it takes to take in a scan, over the last few hundred.
+class Latency {
+ public:
+  void add(double ms) {
+    recent_.push_back(static_cast<float>(ms));
+    if (recent_.size() > 400) {
+      recent_.pop_front();
+    }
+  }
+  [[nodiscard]] float median_ms() const {
+    std::vector<float> sorted(recent_.begin(), recent_.end());
+    if (sorted.empty()) {
+      return 0.0F;
+    }
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    return *middle;
+  }
+  [[nodiscard]] float max_ms() const {
+    return recent_.empty() ? 0.0F : *std::max_element(recent_.begin(), recent_.end());
+  }
+
+ private:
+  std::deque<float> recent_;
+};
+
+/// The event loop: bus, signals, the two workers, the status. Everything here runs on one thread.
+class Daemon {
+ public:
+  Daemon(const DaemonOptions& options, StopSignal& stop, wire::Bus& bus,
+         std::unique_ptr<Engine> engine)
+      : options_(options),
+        stop_(stop),
+        bus_(bus),
+        mapping_(std::move(engine),
+                 {static_cast<std::size_t>(options.queued_readings), options.commit_every_s, 1.0,
+                  options.service.global_map.tile_cells},
+                 wakeup_),
+        solver_(options.service.global_map, options.service.path, wakeup_),
+        publisher_(bus, new_boot_id(),
+                   [this](const cairn_lcm::plan_request_t& request) {
+                     return order_plan(request);
+                   }),
+        inlets_(to_inlet_options(options),
+                {[this](LaserScan scan) { take(std::move(scan)); },
+                 [this](OdometrySample sample) { take(sample); }, [](const SonarRing&) {}}) {}
+
+  [[nodiscard]] bool subscribe() {
+    const Status inputs =
+        inlets_.subscribe(bus_, [] { return time_of_utime(wall_utime()); });
+    if (!inputs) {
+      spdlog::error("{}", inputs.error().message);
+    }
+    return inputs.ok() && publisher_.subscribe();
+  }
+
+  ExitCode run() {
+    supervisor_.ready();
+    spdlog::info("listening on {}", bus_.url());
+    while (!stop_.was_raised()) {
+      wait();
+      if (bus_.handle(0, 256) < 0) {
+        spdlog::error("the bus is gone: {}", bus_.url());
+        return ExitCode::kNoService;
+      }
+      take_reports();
+      take_outcomes();
+      publisher_.pump();
+      say_remarks();
+      tick();
+    }
+    return ExitCode::kOk;
+  }
+
+  /// What waits is mapped, drawn and stored. @return whether all of it is on the disk
+  bool shut_down() {
+    supervisor_.stopping();
+    state_override_ = cairn_lcm::status_t::STOPPING;
+    publish_status();
+    std::unique_ptr<Engine> engine = mapping_.stop();
+    take_reports();
+    solver_.stop();
+    MapMaker map_maker(options_.service.global_map);
+    const std::shared_ptr<const MapState> state = engine->service().state();
+    map_maker.draw(*state);
+    engine->store(map_maker.documents(*state, {0, engine->map_id()}));
+    const Status status = engine->close();
+    if (!status) {
+      spdlog::error("the map file is not complete: {}", status.error().message);
+    }
+    return status.ok();
+  }
+
+ private:
+  void take(Reading reading) {
+    const bool is_scan = std::holds_alternative<LaserScan>(reading);
+    (is_scan ? last_scan_us_ : last_odometry_us_) = steady_us();
+    ++(is_scan ? scans_received_ : odometry_received_);
+    mapping_.take(std::move(reading));
+  }
+
+  void wait() {
+    std::array<pollfd, 3> fds = {{{bus_.fileno(), POLLIN, 0},
+                                  {stop_.fd(), POLLIN, 0},
+                                  {wakeup_.fd(), POLLIN, 0}}};
+    const int timeout_ms = publisher_.has_work() ? 2 : 100;
+    static_cast<void>(poll(fds.data(), fds.size(), timeout_ms));
+    wakeup_.clear();
+  }
+
+  void take_reports() {
+    while (const std::optional<MappingReport> report = mapping_.next_report()) {
+      publisher_.publish(*report);
+      for (const MappedFix& fix : report->fixes) {
+        ++scans_mapped_;
+        refused_matches_ += fix.fix.is_matched ? 0 : 1;
+      }
+      if (!report->fixes.empty()) {
+        latency_.add(report->update_ms);
+      }
+      joiner_ = report->joiner;
+      note_journal(report->journal_trouble);
+      if (report->state != nullptr) {
+        newest_ = report->state;
+      }
+      log_extensions(*report);
+    }
+    order_drawing();
+  }
+
+  void note_journal(const std::string& trouble) {
+    if (trouble != journal_trouble_) {
+      if (trouble.empty()) {
+        spdlog::info("the map file can be written again");
+      } else {
+        spdlog::error("the map file cannot be written: {}", trouble);
+      }
+      journal_trouble_ = trouble;
+      publish_status();
+    }
+  }
+
+  static void log_extensions(const MappingReport& report) {
+    for (const ExtendReport& extension : report.extensions) {
+      spdlog::info("visit {}: {} hypotheses ({} closures, {} new places, {} known links)",
+                   extension.visit.value, extension.leaves, extension.closures,
+                   extension.new_places, extension.known_links);
+      if (extension.guarantee_given_up) {
+        spdlog::warn("visit {}: guarantee given up: {}", extension.visit.value,
+                     extension.guarantee_given_up->reason);
+      }
+    }
+  }
+
+  /// One drawing is under way at a time; the newest state is drawn next.
+  void order_drawing() {
+    if (is_drawing_ || newest_ == nullptr) {
+      return;
+    }
+    const std::int64_t now = steady_us();
+    const bool with_documents =
+        static_cast<double>(now - last_documents_us_) > 1e6 * options_.documents_every_s;
+    if (with_documents) {
+      last_documents_us_ = now;
+    }
+    is_drawing_ = true;
+    solver_.order(DrawOrder{std::exchange(newest_, nullptr), {0, publisher_.sender().map_id},
+                            with_documents});
+  }
+
+  bool order_plan(const cairn_lcm::plan_request_t& request) {
+    if (solver_.waiting() + 2 >= SolverThread::kMaxWaiting) {
+      return false;
+    }
+    solver_.order(PlanOrder{request, publisher_.sender()});
+    return true;
+  }
+
+  void take_outcomes() {
+    while (std::optional<SolverThread::Outcome> outcome = solver_.next_outcome()) {
+      if (const auto* const plan = std::get_if<cairn_lcm::plan_t>(&*outcome)) {
+        publisher_.publish(*plan);
+        continue;
+      }
+      auto& drawing = std::get<Drawing>(*outcome);
+      publisher_.publish(drawing, options_.service.global_map);
+      if (drawing.documents) {
+        mapping_.store(*std::move(drawing.documents));
+      }
+      is_drawing_ = false;
+    }
+    order_drawing();
+  }
+
+  void say_remarks() {
+    for (const std::string& remark : inlets_.take_remarks()) {
+      spdlog::warn("{}", remark);
+    }
+    if (const std::string remark = publisher_.take_remark(); !remark.empty()) {
+      spdlog::warn("{}", remark);
+      publish_status();
+    }
+  }
+
+  void tick() {
+    const std::int64_t now = steady_us();
+    const std::int64_t progress = mapping_.progress();
+    if (progress != last_progress_ || mapping_.waiting() == 0) {
+      last_progress_ = progress;
+      supervisor_.alive(std::chrono::steady_clock::now());
+    }
+    const int state = current_state().first;
+    if (now - last_status_us_ >= kStatusEvery_us || state != last_state_) {
+      last_state_ = state;
+      publish_status();
+    }
+  }
+
+  /// State and reason for the status.
+  [[nodiscard]] std::pair<int, std::string> current_state() const {
+    using State = cairn_lcm::status_t;
+    const std::int64_t now = steady_us();
+    if (state_override_) {
+      return {*state_override_, "asked to stop"};
+    }
+    if (scans_received_ == 0) {
+      return {State::WAITING_FOR_SENSORS, "no scan has come yet"};
+    }
+    if (!journal_trouble_.empty()) {
+      return {State::DEGRADED, "the map file cannot be written: " + journal_trouble_};
+    }
+    if (publisher_.foreign_daemons() > 0) {
+      return {State::DEGRADED, "another cairnd is on this bus"};
+    }
+    if (now - last_scan_us_ > kSensorOld_us) {
+      return {State::DEGRADED, "no scan for more than a second"};
+    }
+    if (odometry_received_ == 0) {
+      return {State::DEGRADED, "no odometry: the robot's motion is guessed from the scans"};
+    }
+    return {State::MAPPING, ""};
+  }
+
+  [[nodiscard]] static std::int32_t age_ms(std::int64_t since_us) {
+    return since_us == 0 ? -1 : static_cast<std::int32_t>((steady_us() - since_us) / 1000);
+  }
+
+  void publish_status() {
+    constexpr std::array<const char*, 5> kNames = {"STARTING", "WAITING_FOR_SENSORS", "MAPPING",
+                                                   "DEGRADED", "STOPPING"};
+    cairn_lcm::status_t status{};
+    const auto [state, reason] = current_state();
+    status.protocol_version = kProtocolVersion;
+    status.version = kVersion;
+    status.state = state;
+    status.state_name = kNames[static_cast<std::size_t>(state)];
+    status.reason = reason;
+    status.scans_received = scans_received_;
+    status.scans_mapped = scans_mapped_;
+    status.scans_dropped = mapping_.dropped();
+    status.scans_out_of_order = static_cast<std::int64_t>(joiner_.out_of_order);
+    status.clock_steps = static_cast<std::int64_t>(joiner_.clock_steps);
+    status.scans_refused = static_cast<std::int64_t>(joiner_.duplicates);
+    status.odometry_received = odometry_received_;
+    add_inlet_counters(&status);
+    status.udp_drops = wire::own_udp_drops().value_or(-1);
+    status.scan_age_ms = age_ms(last_scan_us_);
+    status.odometry_age_ms = age_ms(last_odometry_us_);
+    status.update_ms_p50 = latency_.median_ms();
+    status.update_ms_max = latency_.max_ms();
+    status.rss_mb = resident_mb();
+    last_status_us_ = steady_us();
+    supervisor_.status(std::string(status.state_name) + (reason.empty() ? "" : ": " + reason));
+    publisher_.publish(std::move(status));
+  }
+
+  void add_inlet_counters(cairn_lcm::status_t* status) const {
+    for (const auto& [channel, counters] : inlets_.counters()) {
+      const bool is_odometry =
+          std::find(options_.odometry_channels.begin(), options_.odometry_channels.end(),
+                    channel) != options_.odometry_channels.end();
+      (is_odometry ? status->odometry_refused : status->scans_refused) +=
+          counters.refused + counters.in_future;
+      status->decode_errors += counters.malformed;
+      status->unknown_types += counters.unknown_type;
+    }
+  }
+
+  const DaemonOptions& options_;
+  StopSignal& stop_;
+  wire::Bus& bus_;
+  Wakeup wakeup_;
+  MappingThread mapping_;
+  SolverThread solver_;
+  Publisher publisher_;
+  Inlets inlets_;
+  Supervisor supervisor_;
+
+  std::shared_ptr<const MapState> newest_;  ///< Waits to be drawn.
+  bool is_drawing_ = false;
+  std::int64_t last_documents_us_ = 0;
+  std::int64_t last_scan_us_ = 0;
+  std::int64_t last_odometry_us_ = 0;
+  std::int64_t last_status_us_ = 0;
+  std::int64_t last_progress_ = -1;
+  std::int64_t scans_received_ = 0;
+  std::int64_t scans_mapped_ = 0;
+  std::int64_t refused_matches_ = 0;
+  std::int64_t odometry_received_ = 0;
+  int last_state_ = cairn_lcm::status_t::STARTING;
+  std::optional<int> state_override_;
+  std::string journal_trouble_;
+  JoinerCounters joiner_;
+  Latency latency_;
+};
+
+void complain(const std::string& message) {
+  static_cast<void>(std::fprintf(stderr, "cairnd: %s\n", message.c_str()));
+}
+
+}  // namespace
+
+ExitCode serve(const DaemonOptions& options) {
+  StopSignal stop;  // Before LCM and the workers start their threads.
+  const auto bus = wire::Bus::open(wire::effective_url(options.lcm_url));
+  if (!bus) {
+    complain(bus.error());
+    return ExitCode::kNoService;
+  }
+  Result<std::unique_ptr<Engine>> engine = Engine::open(options.service, options.map_file);
+  if (!engine) {
+    complain(engine.error().message);
+    return engine.error().code == ErrorCode::kMalformed ? ExitCode::kBadData
+                                                        : ExitCode::kCannotCreate;
+  }
+  spdlog::info("map file {}: {} visits, {} scans", options.map_file,
+               (*engine)->service().experience().visits().size(),
+               (*engine)->service().experience().scans().size());
+  Daemon daemon(options, stop, **bus, *std::move(engine));
+  if (!daemon.subscribe()) {
+    return ExitCode::kNoService;
+  }
+  const ExitCode code = daemon.run();
+  const bool is_stored = daemon.shut_down();
+  return code == ExitCode::kOk && !is_stored ? ExitCode::kCannotCreate : code;
+}
+
+ExitCode test_bus(const DaemonOptions& options) {
+  const std::string url = wire::effective_url(options.lcm_url);
+  const auto bus = wire::Bus::open(url);
+  if (!bus) {
+    complain(bus.error());
+    return ExitCode::kNoService;
+  }
+  bool has_arrived = false;
+  const bool is_subscribed =
+      (*bus)->subscribe("CAIRN_SELF_TEST", 4, [&has_arrived](const wire::Received&) {
+        has_arrived = true;
+      });
+  const std::int64_t until = steady_us() + 2'000'000;
+  while (is_subscribed && !has_arrived && steady_us() < until) {
+    (*bus)->publish("CAIRN_SELF_TEST", wire::Bytes(8, 0));
+    if ((*bus)->handle(100) < 0) {
+      break;
+    }
+  }
+  if (!has_arrived) {
+    complain("a message to ourselves did not arrive over " + url);
+    return ExitCode::kNoService;
+  }
+  static_cast<void>(std::printf("the bus works: %s\n", url.c_str()));
+  return ExitCode::kOk;
+}
+
+}  // namespace cairn

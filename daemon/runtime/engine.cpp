@@ -1,0 +1,124 @@
+#include "runtime/engine.hpp"
+
+#include <chrono>
+#include <utility>
+
+namespace cairn {
+namespace {
+
+/// About an hour of scans at 10 Hz.
+constexpr std::size_t kMaxWaiting = 36'000;
+constexpr std::size_t kCommitAfter = 2'000;
+
+}  // namespace
+
+Engine::Engine(const ServiceOptions& options, MapFile map_file)
+    : map_file_(std::move(map_file)),
+      service_(std::make_unique<MappingService>(
+          options, [this](Stage stage) { stage_clock_.enter(stage); })) {}
+
+Result<std::unique_ptr<Engine>> Engine::open(const ServiceOptions& options,
+                                             const std::string& map_file) {
+  Result<MapFile> file = MapFile::open(map_file);
+  if (!file) {
+    return file.error();
+  }
+  std::unique_ptr<Engine> engine(new Engine(options, *std::move(file)));
+  if (const Status status = engine->recall(); !status) {
+    return Error{status.error().code, map_file + ": " + status.error().message};
+  }
+  return engine;
+}
+
+Status Engine::recall() {
+  Status status = map_file_.read_journal(
+      [this](PerceivedScan scan) { service_->recall(std::move(scan)); },
+      [this](Visit visit) { return service_->recall(std::move(visit)); });
+  if (status) {
+    service_->resume();
+  }
+  return status;
+}
+
+Updates Engine::take(Reading reading) {
+  Updates updates = std::visit(
+      [this](auto&& value) { return service_->absorb(std::forward<decltype(value)>(value)); },
+      std::move(reading));
+  journal(updates);
+  return updates;
+}
+
+Updates Engine::finish() {
+  Updates updates = service_->finish();
+  journal(updates);
+  return updates;
+}
+
+void Engine::journal(const Updates& updates) {
+  for (const PerceivedScan& scan : updates.scans) {
+    waiting_.emplace_back(scan);
+  }
+  for (const Visit& visit : updates.visits) {
+    waiting_.emplace_back(visit);
+  }
+  write_waiting(!updates.visits.empty());
+}
+
+void Engine::commit() { write_waiting(true); }
+
+void Engine::write_waiting(bool commit) {
+  const auto start = std::chrono::steady_clock::now();
+  Status status;
+  while (appended_ < waiting_.size() && status) {
+    status = std::visit([this](const auto& entry) { return map_file_.append(entry); },
+                        waiting_[appended_]);
+    appended_ += status ? 1 : 0;
+  }
+  if (status && (commit || appended_ >= kCommitAfter)) {
+    status = map_file_.commit();
+    if (status) {
+      waiting_.clear();
+      appended_ = 0;
+    }
+  }
+  if (!status) {
+    // The disk took only a part, or none: all of it stays here and is written anew later.
+    map_file_.roll_back();
+    appended_ = 0;
+  }
+  if (waiting_.size() > kMaxWaiting) {
+    entries_lost_ += static_cast<std::int64_t>(waiting_.size() - kMaxWaiting);
+    waiting_.resize(kMaxWaiting);
+  }
+  journal_trouble_ = status ? "" : status.error().message;
+  journal_seconds_ +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void Engine::store(const Documents& documents) {
+  commit();
+  if (!journal_trouble_.empty()) {
+    return;  // The journal comes first.
+  }
+  for (const auto& [what, bytes] : documents.bytes) {
+    if (const Status status = map_file_.write_document(what, documents.revision, bytes); !status) {
+      map_file_.roll_back();
+      journal_trouble_ = status.error().message;
+      return;
+    }
+  }
+  if (const Status status = map_file_.commit(); !status) {
+    map_file_.roll_back();
+    journal_trouble_ = status.error().message;
+  }
+}
+
+Status Engine::close() {
+  commit();
+  if (!journal_trouble_.empty()) {
+    return Error{ErrorCode::kUnavailable, journal_trouble_};
+  }
+  return map_file_.close();
+}
+
+}  // namespace cairn

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "runtime/map_maker.hpp"
+#include "runtime/stage_clock.hpp"
+#include "sensing/odometry.hpp"
+#include "service/mapping_service.hpp"
+#include "storage/map_file.hpp"
+
+namespace cairn {
+
+/// A sound reading, as the inlets hand it on.
+using Reading = std::variant<OdometrySample, LaserScan>;
+
+/// The mapping service together with its map file: what is made known is in the journal first. Live
+/// and in a replay the same; one owner, the mapping thread.
+class Engine {
+ public:
+  /// Opens the map file and takes its journal up again.
+  /// Errors as of MapFile::open; kMalformed where the journal is damaged.
+  [[nodiscard]] static Result<std::unique_ptr<Engine>> open(const ServiceOptions& options,
+                                                            const std::string& map_file);
+
+  /// Takes a reading through the pipeline and what it gave into the journal. Visits are on the disk
+  /// when this returns; scans with the next visit, `commit` or `close`.
+  Updates take(Reading reading);
+  /// The input has ended.
+  Updates finish();
+
+  /// Puts on the disk what is not there yet.
+  void commit();
+  void store(const Documents& documents);
+  /// Everything is on the disk, in one file.
+  Status close();
+
+  /// Why the journal cannot be written; empty while all is well. What could not be written waits in
+  /// memory, up to a bound, and is written when the disk takes it again.
+  [[nodiscard]] const std::string& journal_trouble() const { return journal_trouble_; }
+  /// Journal entries that had to be given up because the disk stayed full for too long.
+  [[nodiscard]] std::int64_t entries_lost() const { return entries_lost_; }
+
+  [[nodiscard]] const MappingService& service() const { return *service_; }
+  [[nodiscard]] const StageClock& stage_clock() const { return stage_clock_; }
+  [[nodiscard]] double journal_seconds() const { return journal_seconds_; }
+  [[nodiscard]] std::int64_t map_id() const { return map_file_.map_id(); }
+
+ private:
+  explicit Engine(const ServiceOptions& options, MapFile map_file);
+  Status recall();
+  void journal(const Updates& updates);
+  void write_waiting(bool commit);
+
+  MapFile map_file_;
+  StageClock stage_clock_;
+  std::unique_ptr<MappingService> service_;
+  std::vector<std::variant<PerceivedScan, Visit>> waiting_;  ///< Not committed yet, in order.
+  std::size_t appended_ = 0;  ///< Of these, how many the open transaction holds.
+  std::string journal_trouble_;
+  std::int64_t entries_lost_ = 0;
+  double journal_seconds_ = 0.0;
+};
+
+}  // namespace cairn

@@ -1,0 +1,93 @@
+#include "runtime/mapping_thread.hpp"
+
+#include <chrono>
+#include <utility>
+
+namespace cairn {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+bool is_due(Clock::time_point last, double every_s) {
+  return std::chrono::duration<double>(Clock::now() - last).count() >= every_s;
+}
+
+}  // namespace
+
+MappingThread::MappingThread(std::unique_ptr<Engine> engine, const Options& options,
+                             const Wakeup& wakeup)
+    : engine_(std::move(engine)),
+      options_(options),
+      wakeup_(wakeup),
+      orders_(options.queued_readings),
+      reports_(options.queued_readings + 16),
+      thread_([this] { run(); }) {}
+
+MappingThread::~MappingThread() {
+  if (thread_.joinable()) {
+    static_cast<void>(stop());
+  }
+}
+
+std::unique_ptr<Engine> MappingThread::stop() {
+  orders_.close();
+  thread_.join();
+  return std::move(engine_);
+}
+
+void MappingThread::run() {
+  // What the journal held is published before the first reading comes.
+  report({}, 0.0);
+  while (std::optional<Order> order = orders_.pop()) {
+    if (auto* const documents = std::get_if<Documents>(&*order)) {
+      engine_->store(*documents);
+    } else {
+      carry_out(std::get<Reading>(*std::move(order)));
+    }
+    commit_when_due();
+    ++progress_;
+  }
+  engine_->commit();
+}
+
+void MappingThread::carry_out(Reading reading) {
+  const Clock::time_point start = Clock::now();
+  const Updates updates = engine_->take(std::move(reading));
+  const std::chrono::duration<double, std::milli> spent = Clock::now() - start;
+  if (!updates.scans.empty()) {
+    report(updates, spent.count());
+  }
+}
+
+void MappingThread::commit_when_due() {
+  if (is_due(last_commit_, options_.commit_every_s)) {
+    engine_->commit();
+    last_commit_ = Clock::now();
+  }
+}
+
+void MappingThread::report(const Updates& updates, double update_ms) {
+  MappingReport report;
+  const MappingService& service = engine_->service();
+  for (const PerceivedScan& scan : updates.scans) {
+    report.fixes.push_back({scan.fix, service.T_global_robot()});
+  }
+  report.events = updates.events;
+  report.extensions = updates.extensions;
+  report.map_id = engine_->map_id();
+  report.joiner = service.joiner_counters();
+  report.update_ms = update_ms;
+  report.journal_trouble = engine_->journal_trouble();
+  // A map that could not be journalled is not made known.
+  const bool may_publish = report.journal_trouble.empty();
+  if (may_publish && (updates.is_map_changed || is_due(last_state_, options_.state_every_s))) {
+    report.state = service.state();
+    report.local_map = std::make_shared<const wire::ReplicatedGrid>(
+        to_tiles(service.local_map(), options_.tile_cells));
+    last_state_ = Clock::now();
+  }
+  reports_.push(std::move(report));
+  wakeup_.signal();
+}
+
+}  // namespace cairn

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "runtime/bounded_queue.hpp"
+#include "runtime/engine.hpp"
+#include "runtime/wakeup.hpp"
+
+namespace cairn {
+
+/// Where the robot was at one scan.
+struct MappedFix {
+  LocalFix fix;
+  GaussianPose T_global_robot;
+};
+
+/// What the mapping thread makes known to the event loop; journalled before it is handed out.
+struct MappingReport {
+  std::vector<MappedFix> fixes;
+  std::vector<PlaceEvent> events;
+  std::vector<ExtendReport> extensions;
+  std::shared_ptr<const MapState> state;              ///< Null where none was made.
+  std::shared_ptr<const wire::ReplicatedGrid> local_map;  ///< Comes with a state.
+  std::int64_t map_id = 0;
+  JoinerCounters joiner;
+  double update_ms = 0.0;  ///< To take the reading in.
+  std::string journal_trouble;
+};
+
+/// The thread that owns the engine: takes readings in their order, journals, reports.
+class MappingThread {
+ public:
+  struct Options {
+    std::size_t queued_readings = 2000;
+    double commit_every_s = 1.0;
+    double state_every_s = 1.0;  ///< Besides one for every change of the map.
+    int tile_cells = 64;         ///< Of the local map's tiles.
+  };
+
+  /// @param wakeup is signalled for every report; must outlive this object
+  MappingThread(std::unique_ptr<Engine> engine, const Options& options, const Wakeup& wakeup);
+  /// Stops as `stop` does.
+  ~MappingThread();
+  MappingThread(const MappingThread&) = delete;
+  MappingThread& operator=(const MappingThread&) = delete;
+  MappingThread(MappingThread&&) = delete;
+  MappingThread& operator=(MappingThread&&) = delete;
+
+  void take(Reading reading) { orders_.push(std::move(reading)); }
+  void store(Documents documents) { orders_.push(std::move(documents)); }
+  [[nodiscard]] std::optional<MappingReport> next_report() { return reports_.try_pop(); }
+
+  /// Readings that were dropped because mapping did not keep up.
+  [[nodiscard]] std::int64_t dropped() const { return orders_.dropped(); }
+  [[nodiscard]] std::size_t waiting() const { return orders_.size(); }
+  /// Counts up with every order that was carried out.
+  [[nodiscard]] std::int64_t progress() const { return progress_; }
+
+  /// Carries out what waits, then ends the thread and hands the engine back.
+  std::unique_ptr<Engine> stop();
+
+ private:
+  using Order = std::variant<Reading, Documents>;
+  void run();
+  void carry_out(Reading reading);
+  void commit_when_due();
+  void report(const Updates& updates, double update_ms);
+
+  std::unique_ptr<Engine> engine_;
+  Options options_;
+  const Wakeup& wakeup_;
+  BoundedQueue<Order> orders_;
+  BoundedQueue<MappingReport> reports_;
+  std::atomic<std::int64_t> progress_{0};
+  std::chrono::steady_clock::time_point last_commit_;
+  std::chrono::steady_clock::time_point last_state_;
+  std::thread thread_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <cairn_lcm/delta_request_t.hpp>
+#include <cairn_lcm/event_request_t.hpp>
+#include <cairn_lcm/plan_request_t.hpp>
+#include <cairn_lcm/plan_t.hpp>
+#include <cairn_lcm/snapshot_request_t.hpp>
+#include <cairn_lcm/status_t.hpp>
+
+#include "runtime/event_book.hpp"
+#include "runtime/mapping_thread.hpp"
+#include "runtime/solver_thread.hpp"
+#include "wire/bus.hpp"
+#include "wire/replication_server.hpp"
+#include "wire/request.hpp"
+
+namespace cairn {
+
+/// The daemon's voice on the bus, and its ear for requests. Belongs to the event loop.
+class Publisher {
+ public:
+  /// Takes a plan request to the solver. @return false where too many wait already
+  using OrderPlan = std::function<bool(const cairn_lcm::plan_request_t&)>;
+
+  /// @param bus must outlive this object
+  Publisher(wire::Bus& bus, std::int64_t boot_id, OrderPlan order_plan);
+
+  /// Listens to requests and to the status of other daemons.
+  /// @return false where LCM refuses
+  [[nodiscard]] bool subscribe();
+
+  /// What mapping made known.
+  void publish(const MappingReport& report);
+  void publish(const Drawing& drawing, const GlobalMapOptions& options);
+  void publish(const cairn_lcm::plan_t& plan);
+  /// Fills in what is known here, and sends it.
+  void publish(cairn_lcm::status_t status);
+  /// Sends what the pace allows.
+  void pump();
+
+  [[nodiscard]] bool has_work() const { return replication_.has_work(); }
+  [[nodiscard]] const std::shared_ptr<const MapState>& state() const { return state_; }
+  [[nodiscard]] Sender sender() const { return {boot_id_, map_id_}; }
+  [[nodiscard]] std::int64_t foreign_daemons() const { return foreign_daemons_; }
+  /// Something that belongs into the log: a second daemon, a broken request. Empties itself.
+  [[nodiscard]] std::string take_remark() { return std::exchange(remark_, {}); }
+  [[nodiscard]] std::int64_t malformed_requests() const { return malformed_requests_; }
+
+ private:
+  template <class Request>
+  bool listen(const std::string& channel, void (Publisher::*handle)(const Request&));
+  void on_plan(const cairn_lcm::plan_request_t& request);
+  void on_snapshot(const cairn_lcm::snapshot_request_t& request);
+  void on_delta(const cairn_lcm::delta_request_t& request);
+  void on_events(const cairn_lcm::event_request_t& request);
+  void on_status(const cairn_lcm::status_t& status);
+  void answer(const cairn_lcm::rpc_header_t& request, std::int32_t code, const std::string& name,
+              const std::string& reason);
+  void publish_state(const std::shared_ptr<const MapState>& state);
+  void publish_local_map(const wire::ReplicatedGrid& local_map);
+
+  wire::Bus& bus_;
+  std::int64_t boot_id_;
+  std::int64_t map_id_ = 0;
+  OrderPlan order_plan_;
+  wire::ReplicationServer replication_;
+  wire::ResultCache results_;
+  EventBook events_;
+  std::shared_ptr<const MapState> state_;
+  std::int64_t foreign_daemons_ = 0;
+  std::int64_t foreign_boot_id_ = 0;
+  std::int64_t malformed_requests_ = 0;
+  std::string remark_;
+};
+
+/// Microseconds since the epoch, and by a clock that never steps.
+[[nodiscard]] std::int64_t wall_utime();
+[[nodiscard]] std::int64_t steady_us();
+
+}  // namespace cairn

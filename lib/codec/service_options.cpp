@@ -1,0 +1,214 @@
+#include "codec/service_options.hpp"
+
+namespace cairn {
+namespace {
+
+OptionObject describe(JoinerOptions* joiner) {
+  OptionObject object("joiner", "How scans and odometry are brought together by their stamps.");
+  object.number("history_s", &joiner->history_s, {0.1, 600}, "Odometry that is kept, by its stamps.")
+      .number("patience_s", &joiner->patience_s, {0, 60}, "How long a scan waits for odometry.")
+      .number("clock_step_back_s", &joiner->clock_step_back_s, {0.1, 3600},
+              "A longer jump back is a new clock: the inputs start afresh.")
+      .number("clock_step_ahead_s", &joiner->clock_step_ahead_s, {1, 1e9},
+              "A longer jump ahead is a new clock.");
+  return object;
+}
+
+OptionObject describe(ScrollingMapOptions* map) {
+  OptionObject object("map", "The scrolling occupancy grid around the robot.");
+  object.number("cell_m", &map->cell_m, {0.01, 0.5}, "Side of a cell.")
+      .number("window_m", &map->window_m, {4, 200}, "Side of the square window.")
+      .number("memory_travel_m", &map->memory_travel_m, {1, 10000},
+              "What was not seen for this travel is forgotten, so that no large loop closes here.")
+      .number("hit_log_odds", &map->hit_log_odds, {0.41, 3}, "Added to the cell a beam ends in.")
+      .number("miss_log_odds", &map->miss_log_odds, {0.01, 3},
+              "Taken from a cell a beam passes through.")
+      .number("max_log_odds", &map->max_log_odds, {1, 20},
+              "Clamp, so that what has moved away fades.")
+      .number("max_free_range_m", &map->max_free_range_m, {0.1, 200},
+              "A beam without return frees no more than this.");
+  return object;
+}
+
+OptionObject describe(MotionModelOptions* motion) {
+  OptionObject object("motion",
+                      "How far dead reckoning is believed between two scans: standard deviations.");
+  object.number("drive_noise_m_per_m", &motion->drive_noise_m_per_m, {0, 1}, "Ahead, by driving.")
+      .number("slide_noise_m_per_m", &motion->slide_noise_m_per_m, {0, 1}, "Sideways, by driving.")
+      .number("turn_noise_rad_per_rad", &motion->turn_noise_rad_per_rad, {0, 1},
+              "Heading, by turning.")
+      .number("turn_noise_rad_per_m", &motion->turn_noise_rad_per_m, {0, 1}, "Heading, by driving.")
+      .number("drive_noise_m", &motion->drive_noise_m, {1e-4, 1}, "Per scan, even at rest.")
+      .number("turn_noise_rad", &motion->turn_noise_rad, {1e-4, 1}, "Per scan, even at rest.")
+      .number("max_speed_m_per_s", &motion->max_speed_m_per_s, {0.01, 100},
+              "Faster odometry is not believed.")
+      .number("max_turn_rate_rad_per_s", &motion->max_turn_rate_rad_per_s, {0.01, 100},
+              "Faster odometry is not believed.");
+  return object;
+}
+
+OptionObject describe(ScanMatchOptions* match) {
+  OptionObject object("match", "Scan matching against the scrolling map.");
+  object.number("point_spacing_m", &match->point_spacing_m, {0, 5},
+                "Returns closer together than this are thinned.")
+      .number("max_match_range_m", &match->max_match_range_m, {0.5, 200},
+              "Farther returns are not matched.")
+      .number("hit_sigma_m", &match->hit_sigma_m, {0.001, 1}, "Spread of a return around the wall.")
+      .number("independent_share", &match->independent_share, {0.001, 1},
+              "Share of the returns that count as independent.")
+      .number("min_explained_share", &match->min_explained_share, {0, 1},
+              "Of the returns over known cells; below it a match is refused.")
+      .integer("min_returns", &match->min_returns, {3, 10000},
+               "Fewer returns: the sensor is blocked.")
+      .number("search_range_m", &match->search_range_m, {0, 5}, "Half the wide search's window.")
+      .number("search_turn_rad", &match->search_turn_rad, {0, 3.2}, "Half the wide search's window.");
+  return object;
+}
+
+OptionObject describe(LpmOptions* lpm) {
+  OptionObject object("lpm", "The local metrical layer (local perceptual map).");
+  object.object(describe(&lpm->map))
+      .object(describe(&lpm->motion))
+      .object(describe(&lpm->match))
+      .number("insert_every_m", &lpm->insert_every_m, {0, 5}, "The map takes a scan after this travel,")
+      .number("insert_every_rad", &lpm->insert_every_rad, {0, 3.2}, "or after this turn.")
+      .integer("refusals_before_restart", &lpm->refusals_before_restart, {1, 1000},
+               "So many refused matches in a row: the local map starts afresh.");
+  return object;
+}
+
+OptionObject describe(ContinuationOptions* continuation) {
+  OptionObject object("continuation", "When a path goes on through a place.");
+  object.number("max_turn_rad", &continuation->max_turn_rad, {0.01, 3.1},
+                "Largest turn between inbound and outbound heading.")
+      .number("rival_margin_rad", &continuation->rival_margin_rad, {0, 3.1},
+              "Least extra turn of the next best continuation.");
+  return object;
+}
+
+OptionObject describe(PlaceOptions* place) {
+  OptionObject object("place", "Perception of places: gateways, path fragments, stars, visits.");
+  object.number("window_m", &place->window_m, {4, 100}, "Side of the square that is looked at.")
+      .number("cell_m", &place->cell_m, {0.01, 1}, "Coarsest cell worked with.")
+      .number("robot_width_m", &place->robot_width_m, {0.05, 5}, "Narrower passages are none.")
+      .number("coastal_distance_m", &place->coastal_distance_m, {0.05, 20},
+              "Alcoves less deep are no branches.")
+      .number("speck_m", &place->speck_m, {0, 2}, "Isolated obstacles up to this extent are ignored.")
+      .number("constriction_ahead_m", &place->constriction_ahead_m, {0.1, 20},
+              "Stretch of axis compared for a constriction.")
+      .number("constriction_tolerance_m", &place->constriction_tolerance_m, {0, 2},
+              "Roughness of walls.")
+      .number("min_corner_rad", &place->min_corner_rad, {0.01, 3.1},
+              "Two gateways less out of line are no place.")
+      .number("min_gateway_separation_rad", &place->min_gateway_separation_rad, {0, 3.1},
+              "Gateways closer in bearing are one.")
+      .number("seen_beyond_m", &place->seen_beyond_m, {0.1, 20},
+              "Free passage that makes an opening a gateway.")
+      .number("midline_below_m", &place->midline_below_m, {0.1, 100},
+              "Wider passages are followed by a wall.")
+      .number("min_distinctiveness", &place->min_distinctiveness, {0, 1},
+              "Less distinctive spots are no islands of reliability.")
+      .number("recompute_after_m", &place->recompute_after_m, {0, 5},
+              "Travel between two looks at the map.")
+      .number("same_spot_m", &place->same_spot_m, {0.01, 10},
+              "Two readings of one place lie less apart.")
+      .number("left_beyond_m", &place->left_beyond_m, {0.01, 10},
+              "Distance beyond a gateway at which a place is left.")
+      .number("crop_margin_m", &place->crop_margin_m, {0, 20},
+              "Of the stored local map around the gateways.")
+      .object(describe(&place->continuation));
+  return object;
+}
+
+OptionObject describe(MapMatchOptions* recognition) {
+  OptionObject object("recognition", "Comparison of the local maps of two visits.");
+  object.number("search_range_m", &recognition->search_range_m, {0, 20}, "Half the search window.")
+      .number("search_turn_rad", &recognition->search_turn_rad, {0, 3.2}, "Half the search window.")
+      .number("hit_sigma_m", &recognition->hit_sigma_m, {0.001, 1},
+              "Spread of a wall of one map around the same wall of the other.")
+      .number("min_overlap_share", &recognition->min_overlap_share, {0, 1},
+              "Less common ground is no evidence.");
+  return object;
+}
+
+OptionObject describe(TopologyOptions* topology) {
+  OptionObject object("topology", "The tree of topological maps.");
+  object.flag("planar", &topology->planar, "No path segment crosses another.")
+      .flag("region_consistent", &topology->region_consistent,
+            "Every path must separate a left from a right.")
+      .integer("max_hypotheses", &topology->max_hypotheses, {1, 1e7},
+               "Live hypotheses kept; what this drops is said in the status.")
+      .integer("max_broken_hypotheses", &topology->max_broken_hypotheses, {1, 1e7},
+               "Of these, how many survive a contradiction.")
+      .choice(
+          "preference", [topology] { return static_cast<int>(topology->preference); },
+          [topology](int value) { topology->preference = static_cast<Preference>(value); },
+          {"simplest", "posterior"}, "Which hypothesis is the best one.")
+      .number("log_prior_new_place", &topology->log_prior_new_place, {-1000, 0},
+              "Of each place beyond the first, in nats.")
+      .number("log_penalty_break", &topology->log_penalty_break, {0, 10000},
+              "Of each observation left unexplained, in nats.")
+      .number("log_penalty_misread", &topology->log_penalty_misread, {0, 10000},
+              "Of each star taken to be misread, in nats.")
+      .number("recognition_threshold", &topology->recognition_threshold, {0, 10000},
+              "Evidence above it may overrule a star or a link, in nats.")
+      .number("layout_margin", &topology->layout_margin, {0, 1e6},
+              "Hypotheses further below the best are not laid out, in nats.");
+  return object;
+}
+
+OptionObject describe(LayoutOptions* layout) {
+  OptionObject object("layout", "The layout of places.");
+  object.integer("max_iterations", &layout->max_iterations, {1, 10000}, "Of the non-linear solver.")
+      .number("outlier_sigmas", &layout->outlier_sigmas, {0, 1000},
+              "Travels that disagree by more count less (Huber); 0 is plain least squares.");
+  return object;
+}
+
+OptionObject describe(GlobalMapOptions* map) {
+  OptionObject object("global_map", "The global metrical map in tiles.");
+  object.number("cell_m", &map->cell_m, {0.01, 1}, "Side of a cell.")
+      .integer("tile_cells", &map->tile_cells, {8, 128}, "Cells along the side of a tile.")
+      .number("draw_range_m", &map->draw_range_m, {0.1, 100}, "Beams are drawn up to here.")
+      .number("hit_log_odds", &map->hit_log_odds, {0.01, 10}, "A scan ends a beam in the cell.")
+      .number("miss_log_odds", &map->miss_log_odds, {0.01, 10}, "A scan sees through the cell.")
+      .number("moved_m", &map->moved_m, {0, 10}, "A scan moved by no more stays as it is drawn.")
+      .number("turned_rad", &map->turned_rad, {0, 3.1}, "The same for its heading.")
+      .integer("max_tiles", &map->max_tiles, {1, 1e6}, "What lies beyond this budget is not drawn.");
+  return object;
+}
+
+OptionObject describe(GridSearchOptions* search) {
+  OptionObject object("search", "Ways over the cells of the map.");
+  object.number("robot_radius_m", &search->robot_radius_m, {0, 10},
+                "Cells with less clearance are not traversable.")
+      .number("comfort_clearance_m", &search->comfort_clearance_m, {0, 20},
+              "Nearer to walls than this, cells cost more.")
+      .number("wall_cost", &search->wall_cost, {0, 14}, "Added cost per metre at the robot's radius.")
+      .flag("unknown_is_traversable", &search->unknown_is_traversable,
+            "Whether paths may lead where nothing was seen.");
+  return object;
+}
+
+OptionObject describe(PathOptions* path) {
+  OptionObject object("path", "Metric paths.");
+  object.object(describe(&path->search))
+      .number("corridor_m", &path->corridor_m, {0.1, 100}, "A path along a route stays this near to it.")
+      .number("waypoint_spacing_m", &path->waypoint_spacing_m, {0.01, 100}, "Between two waypoints.")
+      .number("start_tolerance_m", &path->start_tolerance_m, {0, 10},
+              "A robot this near to traversable space may start there.")
+      .number("goal_tolerance_m", &path->goal_tolerance_m, {0, 10},
+              "A goal in a wall may be moved so far.");
+  return object;
+}
+
+}  // namespace
+
+std::vector<OptionObject> describe(ServiceOptions* options) {
+  return {describe(&options->joiner),      describe(&options->lpm),
+          describe(&options->place),       describe(&options->recognition),
+          describe(&options->topology),    describe(&options->layout),
+          describe(&options->global_map),  describe(&options->path)};
+}
+
+}  // namespace cairn
