@@ -41,8 +41,9 @@ class LogReader {
   /// The next message; nothing at the end of the file, and where the file is damaged.
   [[nodiscard]] std::optional<LogMessage> next();
 
-  /// What stopped the reading before the end of the file, with the byte or the line; nothing where
-  /// all is well. What was read until then stands.
+  /// The first thing that is wrong with the file, with its byte or its line; nothing where all is
+  /// well. An event log cannot be read beyond it; of a CARMEN log only that line is left out. What
+  /// was read stands.
   [[nodiscard]] const std::optional<std::string>& damage() const;
   [[nodiscard]] std::int64_t bytes_read() const;
   [[nodiscard]] std::int64_t bytes_total() const;

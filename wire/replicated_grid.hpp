@@ -35,8 +35,9 @@ struct ReplicatedGrid {
   std::map<TileIndex, TileCells> tiles;
 };
 
-/// No tile may be larger, no grid may have more bytes in its tiles.
+/// Cells along the side of a tile, at most.
 inline constexpr std::int32_t kMaxTileCells = 1024;
+[[nodiscard]] bool is_tiling(double cell_m, std::int32_t tile_cells);
 
 [[nodiscard]] cairn_lcm::grid_map_t to_message(const ReplicatedGrid& grid);
 /// Nothing where sizes do not fit together.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <optional>
@@ -32,8 +33,8 @@ class BootFilter {
   [[nodiscard]] std::int64_t boot_id() const { return boot_id_; }
 
  private:
-  std::int64_t boot_id_ = 0;  ///< 0: none yet.
-  std::set<std::int64_t> former_;
+  std::int64_t boot_id_ = 0;         ///< 0: none yet.
+  std::deque<std::int64_t> former_;  ///< A few are enough.
 };
 
 /// A client's copy of a grid of the daemon (GLOBAL_MAP or LPM), kept equal over a bus that loses,
@@ -46,8 +47,8 @@ class GridMirror {
   GridMirror(std::int32_t what, ReplicationRequests requests);
 
   /// @param revision newest one of this grid by status_t; 0 where the status does not say
-  void on_status(std::int64_t now_us, std::int64_t boot_id, std::int64_t revision);
-  void on_delta(std::int64_t now_us, const cairn_lcm::map_delta_t& delta);
+  void on_status(std::int64_t boot_id, std::int64_t revision);
+  void on_delta(const cairn_lcm::map_delta_t& delta);
   void on_chunk(std::int64_t now_us, const cairn_lcm::snapshot_chunk_t& chunk);
   /// Asks for what is missing; the only place that does. Call it about 20 times a second.
   /// @param utime wall clock, for the header of requests
@@ -68,11 +69,9 @@ class GridMirror {
  private:
   [[nodiscard]] bool hear(std::int64_t boot_id);
   void apply_pending();
-  [[nodiscard]] bool apply(const cairn_lcm::map_delta_t& delta);
+  void apply(const cairn_lcm::map_delta_t& delta);
   void take_document(const Bytes& document);
-  void ask(std::int64_t now_us, std::int64_t utime);
-  void ask_for_snapshot(std::int64_t utime);
-  void ask_for_deltas(std::int64_t utime);
+  void ask(std::int64_t utime);
   void note_progress();
 
   std::int32_t what_;

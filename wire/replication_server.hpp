@@ -1,12 +1,13 @@
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <map>
 #include <optional>
-#include <vector>
+#include <set>
 
 #include <cairn_lcm/delta_request_t.hpp>
 #include <cairn_lcm/map_delta_t.hpp>
@@ -69,7 +70,8 @@ class ReplicationServer {
   /// Where the documents of a kind come from that is no replicated grid.
   void serve(std::int32_t what, Source source);
   /// Takes changed tiles over and queues their deltas. Another map_id, cell size or tile size than
-  /// before starts the grid afresh; the revision goes on.
+  /// before starts the grid afresh; the revision goes on. Tiles that are as before cost nothing.
+  /// @pre every tile has tile_cells^2 cells; others are left out
   void change(std::int64_t now_us, std::int64_t utime, std::int32_t what, const GridChange& change);
 
   /// @return false where there is nothing of this kind to send
@@ -98,25 +100,27 @@ class ReplicationServer {
     std::int64_t made_us = 0;
     std::int64_t asked_us = 0;
   };
+  /// Ordered, so that a thing asked for twice is sent once, the older snapshot first.
   struct DueDelta {
     std::int32_t what = 0;
     std::int64_t revision = 0;
-    friend bool operator==(const DueDelta&, const DueDelta&) = default;
+    friend auto operator<=>(const DueDelta&, const DueDelta&) = default;
   };
   struct DueChunk {
     std::int64_t snapshot_id = 0;
     std::int32_t chunk = 0;
-    friend bool operator==(const DueChunk&, const DueChunk&) = default;
+    friend auto operator<=>(const DueChunk&, const DueChunk&) = default;
   };
 
   [[nodiscard]] std::optional<Document> make_document(std::int32_t what) const;
   bool offer_snapshot(std::int64_t now_us, std::int32_t what, std::int64_t newer_than);
-  void add_delta(std::int64_t utime, std::int32_t what, GridState* state, TileIndex index);
-  void queue_delta(DueDelta due);
-  void queue_chunk(DueChunk due);
+  void add_snapshot(std::int64_t now_us, std::int32_t what, Document document);
+  void queue_all_chunks(std::int64_t snapshot_id, const Snapshot& snapshot);
+  void add_delta(std::int64_t utime, std::int32_t what, TileIndex index, GridState* state);
+  void earn_tokens(std::int64_t now_us);
   void queue_reminders(std::int64_t now_us);
-  std::int64_t send_next_delta(std::int64_t now_us);
-  std::int64_t send_next_chunk(std::int64_t utime);
+  [[nodiscard]] std::int64_t send_next_delta(std::int64_t now_us);
+  [[nodiscard]] std::int64_t send_next_chunk(std::int64_t utime);
   void forget_old_snapshots(std::int64_t now_us);
 
   std::int64_t boot_id_;
@@ -126,8 +130,8 @@ class ReplicationServer {
   std::map<std::int32_t, Source> sources_;
   std::map<std::int32_t, GridState> grids_;
   std::map<std::int64_t, Snapshot> snapshots_;  ///< By id, so that the newest is last.
-  std::deque<DueDelta> deltas_due_;
-  std::deque<DueChunk> chunks_due_;
+  std::set<DueDelta> deltas_due_;
+  std::set<DueChunk> chunks_due_;
   std::int64_t last_snapshot_id_ = 0;
   std::int64_t tokens_ = 0;  ///< Bytes that may be sent now; below 0 after a send.
   std::optional<std::int64_t> last_pump_us_;

@@ -46,6 +46,7 @@ class SnapshotAssembler {
   std::int32_t total_crc32_ = 0;
   std::vector<Bytes> chunks_;  ///< Empty: not here yet. Memory grows with what arrives only.
   std::size_t num_missing_ = 0;
+  std::int64_t received_bytes_ = 0;
 };
 
 }  // namespace cairn::wire
