@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
 
 #include "geometry/gaussian_pose.hpp"
 #include "grid/occupancy_grid.hpp"
 #include "lpm/lpm_options.hpp"
+#include "lpm/scan_matcher.hpp"
+#include "lpm/scrolling_map.hpp"
 #include "sensing/scan_joiner.hpp"
 
 namespace cairn {
@@ -56,18 +58,13 @@ class LocalMapper {
  public:
   /// @pre validate(options).ok()
   explicit LocalMapper(const LpmOptions& options = {});
-  ~LocalMapper();
-  LocalMapper(LocalMapper&&) noexcept;
-  LocalMapper& operator=(LocalMapper&&) noexcept;
-  LocalMapper(const LocalMapper&) = delete;
-  LocalMapper& operator=(const LocalMapper&) = delete;
 
   /// Takes the next scan: every scan gives a fix, matched or refused.
-  /// @pre validate(scan.scan).ok()
-  LocalFix absorb(const JoinedScan& scan);
+  /// @pre validate(joined.scan).ok()
+  LocalFix absorb(const JoinedScan& joined);
 
   /// The occupancy grid around the robot, in the lpm frame. Its origin moves by whole cells.
-  [[nodiscard]] const OccupancyGrid& grid() const;
+  [[nodiscard]] const OccupancyGrid& grid() const { return map_.grid(); }
 
   /// Puts back a scan remembered with its pose, without matching, to rebuild the map after a
   /// restart: oldest first. The next scan absorbed is looked for around the pose restored last.
@@ -75,8 +72,24 @@ class LocalMapper {
   void restore(const LaserScan& scan, const Pose2& T_lpm_robot);
 
  private:
-  class Tracker;
-  std::unique_ptr<Tracker> tracker_;
+  [[nodiscard]] GaussianPose predicted_motion(const JoinedScan& joined, bool* is_believed) const;
+  void settle(const ScanMatch& match, const GaussianPose& predicted, LocalFix* fix);
+  void draw(const LaserScan& scan, FixNote note);
+  void advance(const JoinedScan& joined, const LocalFix& fix);
+
+  LpmOptions options_;
+  ScrollingMap map_;
+  ScanMatcher matcher_;
+  bool is_started_ = false;
+  TimePoint time_;
+  Pose2 T_lpm_robot_;
+  std::optional<Pose2> T_odom_robot_;
+  Matrix3d uncertainty_ = Matrix3d::Zero();  // of dead reckoning since the last match, lpm frame
+  Pose2 T_lpm_drawn_;                        // where the map took its last scan
+  double travel_m_ = 0.0;
+  double speed_m_per_s_ = 0.0;  // ahead, for want of odometry
+  double turn_rate_rad_per_s_ = 0.0;
+  int refusals_ = 0;
 };
 
 }  // namespace cairn

@@ -74,7 +74,7 @@ class ScanJoiner {
   void count_clock_step(std::optional<TimePoint> newest_of_other, TimePoint time);
   [[nodiscard]] std::optional<std::uint64_t> find_sample_at_or_after(TimePoint time) const;
   [[nodiscard]] std::optional<Pose2> joined(TimePoint time, std::uint64_t last_arrival);
-  [[nodiscard]] std::optional<Pose2> extrapolated(TimePoint time) const;
+  [[nodiscard]] std::optional<Pose2> extrapolated(TimePoint time);
   [[nodiscard]] const OdometrySample& sample(std::uint64_t arrival) const;
   [[nodiscard]] std::uint64_t end_arrival() const { return first_arrival_ + odometry_.size(); }
 
