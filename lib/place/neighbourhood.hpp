@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "grid/occupancy_grid.hpp"
+#include "place/gateway.hpp"
+#include "place/path_fragments.hpp"
+#include "place/place_options.hpp"
+#include "star/star.hpp"
+
+namespace cairn {
+
+/// A region of free space around a junction, corner, room or dead end of the medial axis, bounded
+/// by walls and gateways. Coordinates in the frame that the holder names.
+struct PlaceNeighbourhood {
+  Vector2d center = Vector2d::Zero();
+  std::vector<Gateway> gateways;  ///< Clockwise, numbered as in the star.
+  std::vector<PathFragment> fragments;
+  Star star;
+  /// Whether no cell of unknown state can be reached from the centre without leaving through a
+  /// gateway. Unknown stretches that are narrower than the robot do not count.
+  bool is_complete = false;
+  double radius_m = 0.0;         ///< From the centre to the farthest gateway or wall of the region.
+  double distinctiveness = 0.0;  ///< See place/island.hpp; [0, 1].
+  bool contains_robot = false;   ///< Whether the robot was inside when this was read.
+};
+
+/// The same neighbourhood in another frame.
+[[nodiscard]] PlaceNeighbourhood transformed(const Pose2& T_to_from,
+                                             const PlaceNeighbourhood& neighbourhood);
+
+/// All places within the window around the robot, in the frame of the grid, complete or not, in an
+/// order that depends on the map alone.
+///
+/// A place is where at least three ways meet, or two that are not in line, or where the only way
+/// ends. A straight corridor is none, however its width varies, nor is an alcove less deep than the
+/// coastal distance. Points where ways meet that no constriction separates are one place.
+///
+/// Source: Kuipers et al., ICRA 2004, Sec. III-B, geometric criterion.
+[[nodiscard]] std::vector<PlaceNeighbourhood> find_places(const OccupancyGrid& grid,
+                                                          const Vector2d& p_grid_robot,
+                                                          const PlaceOptions& options);
+
+}  // namespace cairn
