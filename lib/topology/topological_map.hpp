@@ -52,6 +52,9 @@ class TopologicalMap {
   [[nodiscard]] int gateway_count(PlaceId place) const {
     return stars_->gateway_count(star_of(place));
   }
+  [[nodiscard]] int gateway_count(const Arrival& arrival) const {
+    return stars_->gateway_count(arrival.star);
+  }
   [[nodiscard]] ViewClassId view_class(GatewayRef at) const {
     return stars_->view_class(star_of(at.place), at.gateway);
   }
