@@ -32,11 +32,16 @@ class Judge {
     if (sees(target)) {
       known.log_likelihood = recognition(target);
       refute_by_evidence(known);
-      return {known};
+    } else {
+      known.refuted_by = Refutation::kOtherView;
     }
-    known.refuted_by = Refutation::kOtherView;
     std::vector<Alternative> all = {known};
-    consider_misreading(target, all);
+    if (known.refuted_by == Refutation::kOtherView) {
+      consider_misreading(target, all);
+    }
+    if (map_.unexplained_count() > 0) {
+      consider_unexplained(target, all);
+    }
     return all;
   }
 
@@ -136,8 +141,25 @@ class Judge {
     }
   }
 
+  /// A gateway that leads here one way may also be where a travel from here ends: the corridor of
+  /// an earlier contradiction.
+  void consider_unexplained(GatewayRef known_target, std::vector<Alternative>& all) const {
+    for (GatewayRef at{{0}, 0}; at.place.value < map_.place_count(); ++at.place.value) {
+      const int gateways = map_.gateway_count(at.place);
+      for (at.gateway = 0; at.gateway < gateways; ++at.gateway) {
+        if (at != known_target && map_.leads_to(at) == departure_ && sees(at)) {
+          Alternative again{{StepKind::kRejoin, departure_, at}};
+          again.log_likelihood = recognition(at) - options_.log_penalty_misread;
+          refute_by_evidence(again);
+          all.push_back(again);
+        }
+      }
+    }
+  }
+
   void consider_rejoining(GatewayRef target, std::vector<Alternative>& all) const {
-    if (!evidence_.same_place || !sees(target)) {
+    // A map without contradictions gives no reason to doubt its links.
+    if (map_.unexplained_count() == 0 || !evidence_.same_place || !sees(target)) {
       return;
     }
     const double ratio = recognition(target);

@@ -83,13 +83,17 @@ void TopologicalMap::add_contradicting_place(GatewayRef departure, const Arrival
   ++component_count_;
   exits_[exit_index(target)] = departure;
   --pending_count_;
+  ++unexplained_count_;
   move_to(target, arrival);
 }
 
 void TopologicalMap::rejoin(GatewayRef departure, GatewayRef target, const Arrival& arrival) {
-  CAIRN_CHECK(is_pending(departure) && !is_pending(target));
-  exits_[exit_index(departure)] = target;
-  --pending_count_;
+  CAIRN_CHECK(!is_pending(target));
+  if (is_pending(departure)) {
+    exits_[exit_index(departure)] = target;
+    --pending_count_;
+    ++unexplained_count_;
+  }
   move_to(target, arrival);
 }
 
