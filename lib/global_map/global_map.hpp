@@ -1,6 +1,7 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -8,6 +9,7 @@
 
 #include "base/result.hpp"
 #include "geometry/pose2.hpp"
+#include "global_map/scan_footprint.hpp"
 #include "grid/occupancy_grid.hpp"
 #include "sensing/laser_scan.hpp"
 
@@ -28,14 +30,14 @@ struct PosedScan {
 
 /// Tuning of the global map. In the configuration file: the object "global_map".
 struct GlobalMapOptions {
-  double cell_m = 0.05;        ///< > 0
-  int tile_cells = 64;         ///< Cells along the side of a tile. [8, 1024]
-  double draw_range_m = 10.0;  ///< Beams are drawn up to here. (0, 100]
-  double hit_log_odds = 0.9;   ///< A scan ends a beam in the cell. (0, 10]
-  double miss_log_odds = 0.4;  ///< A scan sees through the cell. (0, 10]
-  double moved_m = 0.01;       ///< A scan moved by no more stays as it is drawn. >= 0
-  double turned_rad = 0.002;   ///< The same for its heading. >= 0
-  int max_tiles = 65536;       ///< What lies beyond this budget is not drawn. [1, 1000000]
+  double cell_m = 0.05;         ///< > 0
+  int tile_cells = 64;          ///< Cells along the side of a tile. [8, 1024]
+  double draw_range_m = 10.0;   ///< Beams are drawn up to here. (0, 100]
+  double hit_log_odds = 0.9;    ///< A scan ends a beam in the cell. (0, 10]
+  double miss_log_odds = 0.45;  ///< A scan sees through the cell. (0, 10]
+  double moved_m = 0.01;        ///< A scan moved by no more stays as it is drawn. >= 0
+  double turned_rad = 0.002;    ///< The same for its heading. >= 0
+  int max_tiles = 65536;        ///< What lies beyond this budget is not drawn. [1, 1000000]
 };
 
 /// Names every field that is out of range, with its value.
@@ -73,8 +75,8 @@ class GlobalMap {
   [[nodiscard]] Result<OccupancyGrid> to_grid(std::size_t max_cells = 100'000'000) const;
 
   [[nodiscard]] const GlobalMapOptions& options() const { return options_; }
-  /// Scans, or parts of them, that were not drawn for want of tiles.
-  [[nodiscard]] std::int64_t beams_beyond_budget() const { return beams_beyond_budget_; }
+  /// How often a scan touched a cell that was not drawn for want of tiles.
+  [[nodiscard]] std::int64_t cells_beyond_budget() const { return cells_beyond_budget_; }
 
  private:
   struct Evidence {
@@ -86,10 +88,17 @@ class GlobalMap {
     bool is_changed = false;
   };
 
+  void count(const PosedScan& scan, std::int32_t times);
+  [[nodiscard]] Tile* tile_to_draw_on(TileIndex index);
+  [[nodiscard]] bool is_drawn_well(const Pose2& drawn, const Pose2& wanted) const;
+  [[nodiscard]] double log_odds_of(const Evidence& evidence) const;
+  std::vector<TileIndex> take_changed();
+
   GlobalMapOptions options_;
+  ScanFootprint footprint_;
   std::map<TileIndex, Tile> tiles_;
-  std::vector<PosedScan> drawn_;
-  std::int64_t beams_beyond_budget_ = 0;
+  std::vector<PosedScan> drawn_;  ///< As they are drawn.
+  std::int64_t cells_beyond_budget_ = 0;
 };
 
 }  // namespace cairn

@@ -56,7 +56,8 @@ GridWindow clipped(const GridWindow& window, const GridGeometry& geometry) {
   return {{x0, y0}, x1 - x0, y1 - y0};
 }
 
-/// Vertical distances: for each cell of a column the row of the nearest cell that is not free, or -1.
+/// Vertical distances: for each cell of a column the row of the nearest cell that is not free, or
+/// -1.
 std::vector<int> nearest_in_columns(const std::vector<CellState>& state, int width, int height) {
   std::vector<int> row_of(state.size(), -1);
   const auto at = [width](int x, int y) {

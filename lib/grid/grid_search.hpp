@@ -46,7 +46,8 @@ class GridSearch {
   /// From the centre of the cell to that of the nearest wall; at most 25.5 cells are told apart
   /// from farther ones. 0 in a wall and outside of the grid.
   [[nodiscard]] double clearance_m(Cell cell) const;
-  /// Cost of a straight line in metres; infinity where it leaves the traversable cells.
+  /// Cost of the straight line between the centres of two cells, in metres; infinity where it
+  /// crosses a cell that is not traversable.
   [[nodiscard]] double line_cost_m(Cell from, Cell to) const;
 
   /// The cheapest way. kInvalidValue where an end is not traversable, kNotFound where no way joins
@@ -64,7 +65,33 @@ class GridSearch {
   [[nodiscard]] Result<Cell> nearest_traversable(Cell cell, double radius_m) const;
 
  private:
+  /// What a search knows of a cell; stale where it is of an earlier search.
+  struct Node {
+    std::uint32_t cost = 0;    ///< Of the cheapest way found so far.
+    std::uint32_t search = 0;  ///< Number of the search that wrote this.
+    std::uint32_t parent = 0;  ///< Index of the cell before.
+  };
+  struct Open {
+    std::uint32_t estimate = 0;  ///< Cost up to the goal; the heap's key.
+    std::uint32_t cost = 0;
+    std::uint32_t index = 0;
+  };
+
+  void measure_clearance(const OccupancyGrid& grid);
+  void set_weights(const OccupancyGrid& grid, const GridSearchOptions& options);
+  [[nodiscard]] Result<GridPath> search(Cell from, Cell to, const std::uint8_t* allowed);
+  void begin(std::uint32_t start, std::uint32_t estimate);
+  void expand(const Open& node, Cell goal, const std::uint8_t* allowed);
+  [[nodiscard]] GridPath path_to(std::uint32_t index) const;
+  [[nodiscard]] Cell cell_of(std::uint32_t index) const;
+
   GridGeometry geometry_;
+  std::vector<std::uint8_t> tenths_clearance_;  ///< By cell.
+  /// By cell: sixteenths of the cost of an open cell; 0 is not traversable.
+  std::vector<std::uint8_t> weight_;
+  std::vector<Node> nodes_;
+  std::vector<Open> open_;
+  std::uint32_t search_number_ = 0;
 };
 
 }  // namespace cairn

@@ -33,10 +33,17 @@ int crossing_number(unsigned bits) {
 }
 
 /// Whether a cell can be taken away without any change of topology.
-bool is_simple(unsigned bits) { return crossing_number(bits) == 1; }
+bool is_simple(unsigned bits) {
+  return crossing_number(bits) == 1;
+}
 
-/// One cell of a line's end, or a lone cell, must stay for the line to keep its length.
-bool is_end(unsigned bits) { return std::popcount(bits) <= 1; }
+/// Whether a line would lose length with the cell: its end, or the end of a line two cells wide.
+/// The corner of a stair, between two sides, would not be missed.
+bool is_end(unsigned bits) {
+  constexpr unsigned kSides = 1U | 4U | 16U | 64U;
+  const int count = std::popcount(bits);
+  return count < 2 || (count == 2 && (bits & ~kSides) != 0);
+}
 
 bool remove_once(const std::vector<std::size_t>& order, const CellMask* kept, CellMask* set) {
   bool changed = false;

@@ -27,9 +27,9 @@ struct CellMask {
   }
 };
 
-/// Thins a set to lines: removes cells one by one in the given order, as often as needed, where that
-/// changes the topology of neither the set (8-connected) nor its complement (4-connected). Cells of
-/// `kept` stay, but where lines of them are two cells wide, one is taken away in the end.
+/// Thins a set to lines: removes cells one by one in the given order, as often as needed, where
+/// that changes the topology of neither the set (8-connected) nor its complement (4-connected).
+/// Cells of `kept` stay, but where lines of them are two cells wide, one is taken away in the end.
 ///
 /// Source: distance-ordered homotopic thinning, Pudney, CVIU 72(3), 1998.
 /// @param order indices of all cells of the set, the first to be removed first

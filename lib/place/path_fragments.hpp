@@ -27,9 +27,9 @@ using ContinuationRule = std::vector<PathFragment> (*)(const std::vector<Gateway
 
 /// Two gateways belong to one path when, after arrival at one in the inbound direction, the clear
 /// unique default travel continuation is the other in the outbound direction, and the other way
-/// round. Clear: the robot turns by less than `max_turn_rad` and is not led more than the width of
-/// the passages to the side. Unique: no other gateway would ask for a similar turn. The rule looks
-/// at directions only, as these repeat from visit to visit better than any length.
+/// round. Clear: the robot turns by less than `max_turn_rad`. Unique: no other gateway would ask
+/// for a similar turn. The rule looks at directions only, as these repeat from visit to visit
+/// better than any length.
 ///
 /// Gateways in clockwise order; fragments come in the order of their first gateway.
 [[nodiscard]] std::vector<PathFragment> mutual_straight_continuations(

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/result.hpp"
@@ -60,8 +61,21 @@ class PathPlanner {
                                              const std::vector<Vector2d>& route_m = {});
 
  private:
+  [[nodiscard]] Result<Cell> standing_cell(const Vector2d& point_m,
+                                           double tolerance_m,
+                                           const std::string& name) const;
+  [[nodiscard]] Result<GridPath> search_cells(Cell start,
+                                              Cell goal,
+                                              const std::vector<Vector2d>& route_m,
+                                              bool* left_corridor);
+  void mark_corridor(const std::vector<Vector2d>& line_m);
+  [[nodiscard]] std::vector<Vector2d> shortened(const GridPath& path) const;
+  [[nodiscard]] std::vector<Vector2d> with_exact_ends(const std::vector<Vector2d>& points_m,
+                                                      const Vector2d& start_m,
+                                                      const Vector2d& goal_m) const;
+  [[nodiscard]] double least_clearance_m(const std::vector<Vector2d>& points_m) const;
+
   PathOptions options_;
-  OccupancyGrid grid_;
   GridSearch search_;
   std::vector<std::uint8_t> corridor_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <compare>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -83,6 +84,15 @@ class RoutePlanner {
   };
 
   explicit RoutePlanner(RouteMap map) : map_(std::move(map)) {}
+
+  void index_exits();
+  [[nodiscard]] Status validate_ends(const std::vector<RouteEnd>& ends,
+                                     const std::string& name) const;
+  [[nodiscard]] std::optional<Route> shortest_route(const std::vector<RouteEnd>& starts,
+                                                    const std::vector<RouteEnd>& goals,
+                                                    const std::vector<PlaceGateway>& closed) const;
+  [[nodiscard]] Route route_to(int goal, double length_m, const std::vector<int>& arrived_by) const;
+  [[nodiscard]] RouteLeg leg_of(Exit exit) const;
 
   RouteMap map_;
   std::vector<int> first_exit_;  ///< By place: where its exits begin; one more at the end.

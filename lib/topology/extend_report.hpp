@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "topology/ids.hpp"
+#include "topology/successors.hpp"
 
 namespace cairn {
 
@@ -51,5 +51,10 @@ struct ExtendReport {
   double best_dropped_log_posterior = -std::numeric_limits<double>::infinity();
   std::optional<GuaranteeGivenUp> guarantee_given_up;  ///< At this visit.
 };
+
+/// Adds a refuted alternative to the report's counts.
+void count_refuted(const Alternative& alternative, ExtendReport& report);
+/// Adds a consistent successor.
+void count_possible(StepKind kind, ExtendReport& report);
 
 }  // namespace cairn

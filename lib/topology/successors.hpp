@@ -16,7 +16,9 @@ enum class StepKind {
   kClosure,    ///< A known place, through a pending gateway: a loop closes.
   kNewPlace,   ///< A place never seen before.
   kMisread,    ///< The known link's place, although the star differs: evidence overrules it.
-  kRejoin,     ///< A known place through a gateway linked elsewhere: evidence overrules the link.
+  /// A known place through a gateway that leads elsewhere: evidence overrules the link, or the
+  /// gateway was left unexplained by a travel the other way.
+  kRejoin,
   kContradiction,  ///< A place that the departing gateway should not lead to: a break.
 };
 

@@ -52,6 +52,9 @@ class TopologicalMap {
   [[nodiscard]] int gateway_count(PlaceId place) const {
     return stars_->gateway_count(star_of(place));
   }
+  [[nodiscard]] int gateway_count(const Arrival& arrival) const {
+    return stars_->gateway_count(arrival.star);
+  }
   [[nodiscard]] ViewClassId view_class(GatewayRef at) const {
     return stars_->view_class(star_of(at.place), at.gateway);
   }
@@ -75,6 +78,7 @@ class TopologicalMap {
   [[nodiscard]] bool is_unexplained(GatewayRef at) const {
     return !is_pending(at) && !linked_to(at).has_value();
   }
+  [[nodiscard]] int unexplained_count() const { return unexplained_count_; }
   /// By place, then gateway.
   [[nodiscard]] std::vector<GatewayRef> pending_gateways() const;
 
@@ -106,8 +110,8 @@ class TopologicalMap {
   /// The robot came to a new place although the departing gateway leads elsewhere: the gateway of
   /// arrival is left unexplained.
   void add_contradicting_place(GatewayRef departure, const Arrival& arrival);
-  /// The robot came out at a known place through a gateway that is linked elsewhere: the departing
-  /// gateway, pending so far, is left unexplained.
+  /// The robot came out at a known place through a gateway that is linked elsewhere. The departing
+  /// gateway is left unexplained if it was pending, and leads where it led if not.
   void rejoin(GatewayRef departure, GatewayRef target, const Arrival& arrival);
 
   /// Later arrivals may bring stars that this map's catalogue lacks.
@@ -140,6 +144,7 @@ class TopologicalMap {
   int pending_count_ = 0;
   int closure_count_ = 0;
   int component_count_ = 1;
+  int unexplained_count_ = 0;
 };
 
 }  // namespace cairn

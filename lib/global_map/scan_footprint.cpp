@@ -1,0 +1,58 @@
+#include "global_map/scan_footprint.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/ray_trace.hpp"
+
+namespace cairn {
+
+ScanFootprint::ScanFootprint(double cell_m, double draw_range_m) : draw_range_m_(draw_range_m) {
+  const int reach_cells = static_cast<int>(std::ceil(draw_range_m / cell_m)) + 2;
+  window_.cell_m = cell_m;
+  window_.width = window_.height = 2 * reach_cells + 1;
+  marks_.resize(window_.cell_count(), Mark::kNone);
+}
+
+const std::vector<TouchedCell>& ScanFootprint::of(const LaserScan& scan,
+                                                  const Pose2& T_global_laser) {
+  const Vector2d laser = T_global_laser.translation();
+  const Cell corner{static_cast<int>(std::floor(laser.x() / window_.cell_m)) - window_.width / 2,
+                    static_cast<int>(std::floor(laser.y() / window_.cell_m)) - window_.height / 2};
+  window_.origin_m = window_.cell_m * Vector2d(corner.x, corner.y);
+  const double reach_m = std::min(draw_range_m_, scan.max_range_m);
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const double range_m = static_cast<double>(scan.ranges_m[i]);
+    if (std::isnan(range_m)) {
+      continue;
+    }
+    const double bearing_rad = T_global_laser.theta() + static_cast<double>(scan.bearings_rad[i]);
+    const Vector2d direction(std::cos(bearing_rad), std::sin(bearing_rad));
+    trace(laser, laser + std::min(range_m, reach_m) * direction, range_m <= reach_m);
+  }
+  touched_.clear();
+  for (const Cell& cell : marked_) {
+    Mark& mark = marks_[window_.index_of(cell)];
+    touched_.push_back({{corner.x + cell.x, corner.y + cell.y}, mark == Mark::kHit});
+    mark = Mark::kNone;
+  }
+  marked_.clear();
+  return touched_;
+}
+
+void ScanFootprint::trace(const Vector2d& from, const Vector2d& to, bool is_hit) {
+  ray_.clear();
+  trace_ray(window_, from, to, &ray_);
+  for (const Cell& cell : ray_) {
+    Mark& mark = marks_[window_.index_of(cell)];
+    if (mark == Mark::kNone) {
+      mark = Mark::kPassed;
+      marked_.push_back(cell);
+    }
+  }
+  if (is_hit && !ray_.empty()) {
+    marks_[window_.index_of(ray_.back())] = Mark::kHit;
+  }
+}
+
+}  // namespace cairn

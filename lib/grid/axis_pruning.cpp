@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <cmath>
+
+#include "grid/axis_graph.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+/// Whether cells of unknown state lie right behind the free cells around the end of an axis. A wall
+/// of one cell hides what is unknown behind it, so free cells beside unknown ones are counted.
+bool touches_unknown(const DistanceTransform& distances, Cell end) {
+  constexpr int kLeastFrontierCells = 3;
+  const double cell_m = distances.geometry().cell_m;
+  const double reach = distances.clearance_m(end) / cell_m + 1.5;
+  const int r = static_cast<int>(std::min(reach, 1000.0));
+  int frontier = 0;
+  for (int dy = -r; dy <= r; ++dy) {
+    for (int dx = -r; dx <= r; ++dx) {
+      const Cell c{end.x + dx, end.y + dy};
+      if (dx * dx + dy * dy > reach * reach || distances.state(c) != CellState::kFree) {
+        continue;
+      }
+      const bool at_frontier = distances.state({c.x + 1, c.y}) == CellState::kUnknown ||
+                               distances.state({c.x - 1, c.y}) == CellState::kUnknown ||
+                               distances.state({c.x, c.y + 1}) == CellState::kUnknown ||
+                               distances.state({c.x, c.y - 1}) == CellState::kUnknown;
+      frontier += at_frontier ? 1 : 0;
+    }
+  }
+  return frontier >= kLeastFrontierCells;
+}
+
+AxisEnd kind_of_end(const DistanceTransform& distances, Cell end) {
+  constexpr int kNearBorder = 2;
+  const GridWindow& w = distances.window();
+  const int to_border =
+      std::min({end.x - w.lower.x, end.y - w.lower.y, w.lower.x + w.width - 1 - end.x,
+                w.lower.y + w.height - 1 - end.y});
+  if (to_border <= kNearBorder) {
+    return AxisEnd::kBorder;
+  }
+  return touches_unknown(distances, end) ? AxisEnd::kUnknown : AxisEnd::kBlocked;
+}
+
+class AxisPruner {
+ public:
+  AxisPruner(MedialAxis axis, double coastal_distance_m, const DistanceTransform& distances)
+      : axis_(std::move(axis)),
+        coastal_distance_m_(coastal_distance_m),
+        distances_(distances),
+        is_gone_(axis_.edges.size(), false),
+        hides_unknown_(axis_.nodes.size(), false) {}
+
+  MedialAxis prune() {
+    for (AxisNode& node : axis_.nodes) {
+      note_end(&node);
+    }
+    for (std::size_t n = 0; n < axis_.nodes.size(); ++n) {
+      join_at(n);
+    }
+    for (std::size_t edge = shallowest_spur(); edge != kNone; edge = shallowest_spur()) {
+      remove(edge);
+    }
+    return compacted();
+  }
+
+ private:
+  void note_end(AxisNode* node) const {
+    if (node->edges.size() < 2 && node->end == AxisEnd::kMeets) {
+      node->end = kind_of_end(distances_, node->cell);
+    }
+  }
+
+  /// The node a blind branch leaves from, or none.
+  [[nodiscard]] std::size_t base_of(const AxisEdge& edge) const {
+    const std::size_t from_degree = axis_.nodes[edge.from].edges.size();
+    const std::size_t to_degree = axis_.nodes[edge.to].edges.size();
+    if (from_degree == 1 && to_degree > 2) {
+      return edge.to;
+    }
+    return to_degree == 1 && from_degree > 2 ? edge.from : kNone;
+  }
+
+  [[nodiscard]] std::size_t shallowest_spur() const {
+    std::size_t best = kNone;
+    double least = coastal_distance_m_;
+    for (std::size_t e = 0; e < axis_.edges.size(); ++e) {
+      const AxisEdge& edge = axis_.edges[e];
+      const std::size_t base = is_gone_[e] ? kNone : base_of(edge);
+      if (base == kNone) {
+        continue;
+      }
+      const AxisNode& tip = axis_.nodes[base == edge.from ? edge.to : edge.from];
+      const double depth_m =
+          length_m(edge, 0, edge.cells.size() - 1, distances_.geometry().cell_m) + tip.clearance_m -
+          axis_.nodes[base].clearance_m;
+      if (tip.end != AxisEnd::kBorder && depth_m < least) {
+        best = e;
+        least = depth_m;
+      }
+    }
+    return best;
+  }
+
+  void remove(std::size_t e) {
+    const AxisEdge& edge = axis_.edges[e];
+    const std::size_t base = base_of(edge);
+    const std::size_t tip = base == edge.from ? edge.to : edge.from;
+    hides_unknown_[base] =
+        hides_unknown_[base] || hides_unknown_[tip] || axis_.nodes[tip].end == AxisEnd::kUnknown;
+    detach(e, edge.from);
+    detach(e, edge.to);
+    is_gone_[e] = true;
+    join_at(base);
+  }
+
+  void detach(std::size_t e, std::size_t n) {
+    std::vector<std::size_t>& edges = axis_.nodes[n].edges;
+    edges.erase(std::find(edges.begin(), edges.end(), e));
+  }
+
+  static void reverse(AxisEdge* edge) {
+    std::swap(edge->from, edge->to);
+    std::reverse(edge->cells.begin(), edge->cells.end());
+    std::reverse(edge->clearance_m.begin(), edge->clearance_m.end());
+  }
+
+  /// Makes one edge of the two of a node that has just two.
+  void join_at(std::size_t n) {
+    if (axis_.nodes[n].edges.size() != 2 || axis_.nodes[n].edges[0] == axis_.nodes[n].edges[1]) {
+      return;
+    }
+    const std::size_t kept = axis_.nodes[n].edges[0];
+    const std::size_t merged = axis_.nodes[n].edges[1];
+    AxisEdge& first = axis_.edges[kept];
+    AxisEdge& second = axis_.edges[merged];
+    if (first.to != n) {
+      reverse(&first);
+    }
+    if (second.from != n) {
+      reverse(&second);
+    }
+    first.to = second.to;
+    first.cells.insert(first.cells.end(), second.cells.begin() + 1, second.cells.end());
+    first.clearance_m.insert(first.clearance_m.end(), second.clearance_m.begin() + 1,
+                             second.clearance_m.end());
+    std::vector<std::size_t>& at_far_end = axis_.nodes[second.to].edges;
+    std::replace(at_far_end.begin(), at_far_end.end(), merged, kept);
+    std::sort(at_far_end.begin(), at_far_end.end());
+    axis_.nodes[n].edges.clear();
+    is_gone_[merged] = true;
+  }
+
+  /// The nodes and edges that are left, numbered anew.
+  MedialAxis compacted() {
+    MedialAxis result;
+    std::vector<std::size_t> number(axis_.nodes.size(), kNone);
+    const bool is_point =
+        std::all_of(is_gone_.begin(), is_gone_.end(), [](bool gone) { return gone; });
+    for (std::size_t n = 0; n < axis_.nodes.size(); ++n) {
+      AxisNode& node = axis_.nodes[n];
+      if (node.edges.empty() && !(is_point && result.nodes.empty())) {
+        continue;
+      }
+      note_end(&node);
+      if (node.end == AxisEnd::kBlocked && hides_unknown_[n]) {
+        node.end = AxisEnd::kUnknown;
+      }
+      number[n] = result.nodes.size();
+      result.nodes.push_back(node);
+      result.nodes.back().edges.clear();
+    }
+    for (std::size_t e = 0; e < axis_.edges.size(); ++e) {
+      if (is_gone_[e]) {
+        continue;
+      }
+      AxisEdge edge = std::move(axis_.edges[e]);
+      edge.from = number[edge.from];
+      edge.to = number[edge.to];
+      result.nodes[edge.from].edges.push_back(result.edges.size());
+      result.nodes[edge.to].edges.push_back(result.edges.size());
+      result.edges.push_back(std::move(edge));
+    }
+    return result;
+  }
+
+  MedialAxis axis_;
+  double coastal_distance_m_;
+  const DistanceTransform& distances_;
+  std::vector<bool> is_gone_;
+  std::vector<bool> hides_unknown_;
+};
+
+}  // namespace
+
+MedialAxis pruned(MedialAxis axis, double coastal_distance_m, const DistanceTransform& distances) {
+  return AxisPruner(std::move(axis), coastal_distance_m, distances).prune();
+}
+
+}  // namespace cairn

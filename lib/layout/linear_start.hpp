@@ -1,0 +1,17 @@
+#pragma once
+
+#include "layout/travel_residual.hpp"
+
+namespace cairn {
+
+/// A start for the place layout that no drift can spoil, from two linear problems: all headings as
+/// unit vectors in the plane (the chordal relaxation), then all positions with these headings. Part
+/// of the place layout; not for other layers.
+///
+/// Source: the initialisation by rotations first of Carlone, Tron, Daniilidis and Dellaert, ICRA
+/// 2015.
+/// @pre all places are joined by travels
+[[nodiscard]] PlaceVector linear_start(int place_count,
+                                       const std::vector<TravelConstraint>& travels);
+
+}  // namespace cairn

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "grid/distance_transform.hpp"
+#include "grid/medial_axis.hpp"
+#include "grid/occupancy_grid.hpp"
+#include "place/place_options.hpp"
+
+namespace cairn {
+
+/// What is looked at to find places: the surroundings of the robot, without specks, and their axis.
+struct LocalView {
+  OccupancyGrid grid;  ///< In the frame of the map; cells of at most `cell_m`.
+  DistanceTransform distances;
+  MedialAxis axis;
+  Cell robot;
+};
+
+/// Cuts the window around the robot out of a map, coarsens it to cells of at most `cell_m` whose
+/// corners are multiples of their size (so that nothing jumps when the map scrolls), fills thin
+/// unknown stripes between beams, and clears isolated specks.
+[[nodiscard]] LocalView look_around(const OccupancyGrid& grid,
+                                    const Vector2d& p_grid_robot,
+                                    const PlaceOptions& options);
+
+}  // namespace cairn

@@ -1,0 +1,101 @@
+#include "place/neighbourhood.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "place/axis_sites.hpp"
+#include "place/gateways.hpp"
+#include "place/local_view.hpp"
+#include "place/region.hpp"
+#include "place/small_scale_star.hpp"
+
+namespace cairn {
+namespace {
+
+/// Corners of the axis are looked for from somewhat weaker turns on; the directions beyond the
+/// gateways decide.
+constexpr double kWeakCorner = 0.8;
+
+/// The mean of the nodes where most edges meet: where ways meet rather than where the axis turns or
+/// ends, if there is any such.
+Vector2d center_of(const LocalView& view, const AxisSite& site) {
+  const auto rank = [&](std::size_t n) {
+    const std::size_t degree = view.axis.nodes[n].edges.size();
+    return std::min<std::size_t>(degree, 3);
+  };
+  std::size_t best = 0;
+  for (const std::size_t n : site.nodes) {
+    best = std::max(best, rank(n));
+  }
+  Vector2d sum = Vector2d::Zero();
+  double count = 0.0;
+  for (const std::size_t n : site.nodes) {
+    if (rank(n) == best) {
+      sum += view.grid.geometry().center_of(view.axis.nodes[n].cell);
+      count += 1.0;
+    }
+  }
+  return sum / count;
+}
+
+/// A place lets the robot choose, turn, or return.
+bool is_place(const std::vector<Gateway>& gateways, const PlaceOptions& options) {
+  if (gateways.size() != 2) {
+    return !gateways.empty();
+  }
+  const double turn =
+      turn_between(gateways[0].outward_bearing_rad + kPi, gateways[1].outward_bearing_rad);
+  return std::abs(turn) >= options.min_corner_rad;
+}
+
+PlaceNeighbourhood neighbourhood_of(const LocalView& view,
+                                    const AxisSite& site,
+                                    const PlaceOptions& options) {
+  PlaceNeighbourhood place;
+  place.center = center_of(view, site);
+  bool is_decided = true;
+  place.gateways = gateways_of(view, site, place.center, options, &is_decided);
+  place.fragments = mutual_straight_continuations(place.gateways, options.continuation);
+  place.star =
+      small_scale_star(place.center, place.gateways, place.fragments, options.midline_below_m);
+  std::vector<Cell> starts;
+  for (const std::size_t n : site.nodes) {
+    starts.push_back(view.axis.nodes[n].cell);
+  }
+  const PlaceRegion region =
+      flooded_region(view, starts, place.gateways, place.center, options.robot_width_m);
+  place.is_complete = is_decided && region.is_complete;
+  place.radius_m = region.radius_m;
+  place.distinctiveness = region.distinctiveness;
+  place.contains_robot = region.contains_robot;
+  return place;
+}
+
+}  // namespace
+
+PlaceNeighbourhood transformed(const Pose2& T_to_from, const PlaceNeighbourhood& neighbourhood) {
+  PlaceNeighbourhood result = neighbourhood;
+  result.center = T_to_from * neighbourhood.center;
+  for (Gateway& gateway : result.gateways) {
+    gateway = transformed(T_to_from, gateway);
+  }
+  return result;
+}
+
+std::vector<PlaceNeighbourhood> find_places(const OccupancyGrid& grid,
+                                            const Vector2d& p_grid_robot,
+                                            const PlaceOptions& options) {
+  LocalView view = look_around(grid, p_grid_robot, options);
+  const double cell_m = view.grid.geometry().cell_m;
+  view.axis = with_corner_nodes(view.axis, cell_m, kWeakCorner * options.min_corner_rad);
+  std::vector<PlaceNeighbourhood> places;
+  for (const AxisSite& site : axis_sites(view.axis, cell_m, options)) {
+    PlaceNeighbourhood place = neighbourhood_of(view, site, options);
+    if (is_place(place.gateways, options) && place.distinctiveness >= options.min_distinctiveness) {
+      places.push_back(std::move(place));
+    }
+  }
+  return places;
+}
+
+}  // namespace cairn

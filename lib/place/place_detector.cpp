@@ -1,0 +1,203 @@
+#include "place/place_detector.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/check.hpp"
+
+namespace cairn {
+namespace {
+
+/// So much of the way before a place is remembered, to know by which gateway the robot came.
+constexpr double kWayBefore_m = 4.0;
+/// A turn on the spot shows something new, too.
+constexpr double kLookAfterTurn_rad = 0.5;
+constexpr double kPoseSpacing_m = 0.05;
+
+double distance_between(const StampedPose& a, const StampedPose& b) {
+  return (a.T_lpm_robot.translation() - b.T_lpm_robot.translation()).norm();
+}
+
+/// Appends a pose unless it is next to the last one; forgets what lies farther back than `keep_m`.
+void extend_way(const StampedPose& pose, double keep_m, std::vector<StampedPose>* way) {
+  if (!way->empty() && distance_between(way->back(), pose) < kPoseSpacing_m) {
+    return;
+  }
+  way->push_back(pose);
+  const auto too_many = static_cast<std::ptrdiff_t>(way->size()) -
+                        static_cast<std::ptrdiff_t>(keep_m / kPoseSpacing_m);
+  if (too_many > 0) {
+    way->erase(way->begin(), way->begin() + too_many);
+  }
+}
+
+const PlaceNeighbourhood* place_with_robot(const std::vector<PlaceNeighbourhood>& places) {
+  const auto found = std::find_if(places.begin(), places.end(),
+                                  [](const PlaceNeighbourhood& p) { return p.contains_robot; });
+  return found != places.end() ? &*found : nullptr;
+}
+
+const PlaceNeighbourhood* place_near(const std::vector<PlaceNeighbourhood>& places,
+                                     const Vector2d& center,
+                                     double within_m) {
+  const PlaceNeighbourhood* nearest = nullptr;
+  for (const PlaceNeighbourhood& place : places) {
+    const double distance_m = (place.center - center).norm();
+    if (distance_m < within_m) {
+      within_m = distance_m;
+      nearest = &place;
+    }
+  }
+  return nearest;
+}
+
+bool holds(const std::vector<Gateway>& gateways, const Gateway& gateway) {
+  return std::any_of(gateways.begin(), gateways.end(),
+                     [&](const Gateway& other) { return is_same_gateway(other, gateway); });
+}
+
+}  // namespace
+
+PlaceDetector::PlaceDetector(const PlaceOptions& options) : options_(options) {
+  CAIRN_CHECK(validate(options).ok());
+}
+
+std::vector<PlaceEvent> PlaceDetector::observe(TimePoint time,
+                                               const Pose2& T_lpm_robot,
+                                               const OccupancyGrid& grid) {
+  std::vector<PlaceEvent> events;
+  const StampedPose now{time, T_lpm_robot};
+  if (last_pose_ && time < last_pose_->time) {
+    return events;
+  }
+  last_pose_ = now;
+  if (stay_) {
+    stay_->add_pose(now);
+  } else {
+    extend_way(now, kWayBefore_m, &way_);
+  }
+  const bool has_moved =
+      !last_look_ || distance_between(*last_look_, now) >= options_.recompute_after_m ||
+      std::abs(turn_between(last_look_->T_lpm_robot.theta(), T_lpm_robot.theta())) >=
+          kLookAfterTurn_rad;
+  if (has_moved) {
+    look(now, grid, &events);
+  }
+  return events;
+}
+
+void PlaceDetector::look(const StampedPose& now,
+                         const OccupancyGrid& grid,
+                         std::vector<PlaceEvent>* events) {
+  ++report_.looks;
+  last_look_ = now;
+  around_ = find_places(grid, now.T_lpm_robot.translation(), options_);
+  const PlaceNeighbourhood* const here = place_with_robot(around_);
+  if (stay_) {
+    const double within_m = std::max(options_.same_spot_m, 0.5 * stay_->best().radius_m);
+    const PlaceNeighbourhood* const same = place_near(around_, stay_->best().center, within_m);
+    if (same != nullptr) {
+      stay_->add_reading(*same);
+    }
+    const bool is_elsewhere = here != nullptr && here != same;
+    // Where a place merges with another or comes apart, its centre jumps; yet without having passed
+    // a gateway the robot is still there.
+    const bool has_crossed = stay_->gateway_left_through(0.0) >= 0;
+    if (is_elsewhere && same == nullptr && !has_crossed) {
+      stay_->add_reading(*here);
+    }
+    announce(now, events);
+    if (stay_->gateway_left_through(options_.left_beyond_m) >= 0 ||
+        stay_->is_far_outside(options_.left_beyond_m) || (is_elsewhere && has_crossed)) {
+      close_stay(grid);
+    }
+  }
+  if (!stay_ && here != nullptr) {
+    open_stay(now, *here);
+  }
+  if (stay_) {
+    stay_->keep_map(grid, options_.crop_margin_m);
+    announce(now, events);
+  }
+}
+
+void PlaceDetector::open_stay(const StampedPose& now, const PlaceNeighbourhood& reading) {
+  const bool is_same_spot =
+      waiting_ && (waiting_->best().center - reading.center).norm() < options_.same_spot_m;
+  const int entrance = is_same_spot ? waiting_->gateway_entered_by(way_) : -1;
+  if (is_same_spot && (entrance < 0 || entrance == waiting_->departure())) {
+    report_.turn_arounds += entrance < 0 ? 0 : 1;
+    stay_ = std::move(waiting_);
+    waiting_.reset();
+    stay_->reopen(way_);
+  } else {
+    stay_.emplace(now, way_, report_.looks > 1);
+    is_announced_ = false;
+    confirmed_.clear();
+  }
+  stay_->add_reading(reading);
+  way_.clear();
+}
+
+void PlaceDetector::close_stay(const OccupancyGrid& grid) {
+  way_ = stay_->last_of_way(kWayBefore_m);
+  if (stay_->is_complete()) {
+    stay_->keep_map(grid, options_.crop_margin_m);
+    stay_->leave();
+    waiting_ = std::move(stay_);
+  } else {
+    ++report_.dropped_incomplete;
+  }
+  stay_.reset();
+}
+
+void PlaceDetector::release_waiting(std::vector<PlaceEvent>* events) {
+  PlaceVisit visit = waiting_->visit();
+  ++report_.visits;
+  events->push_back(
+      {PlaceEventKind::kLeft, visit.left, waiting_->best().center, std::nullopt, visit});
+  waiting_.reset();
+}
+
+void PlaceDetector::announce(const StampedPose& now, std::vector<PlaceEvent>* events) {
+  if (!stay_->is_complete()) {
+    return;
+  }
+  const PlaceNeighbourhood& place = stay_->best();
+  if (!is_announced_) {
+    if (waiting_) {
+      release_waiting(events);
+    }
+    is_announced_ = true;
+    events->push_back(
+        {PlaceEventKind::kEntered, stay_->entered(), place.center, std::nullopt, std::nullopt});
+  }
+  for (const Gateway& gateway : place.gateways) {
+    if (!holds(confirmed_, gateway)) {
+      events->push_back(
+          {PlaceEventKind::kGatewayConfirmed, now.time, place.center, gateway, std::nullopt});
+    }
+  }
+  for (const Gateway& gateway : confirmed_) {
+    if (!holds(place.gateways, gateway)) {
+      events->push_back(
+          {PlaceEventKind::kGatewayRetracted, now.time, place.center, gateway, std::nullopt});
+    }
+  }
+  confirmed_ = place.gateways;
+}
+
+std::vector<PlaceVisit> PlaceDetector::finish() {
+  std::vector<PlaceVisit> visits;
+  for (std::optional<PlaceStay>* stay : {&waiting_, &stay_}) {
+    if (*stay && (*stay)->is_complete()) {
+      visits.push_back((*stay)->visit());
+      ++report_.visits;
+    }
+    stay->reset();
+  }
+  return visits;
+}
+
+}  // namespace cairn

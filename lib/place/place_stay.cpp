@@ -1,0 +1,237 @@
+#include "place/place_stay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cairn {
+namespace {
+
+constexpr double kPoseSpacing_m = 0.05;
+/// Walls have no exact place: a line is crossed also a little beside its ends.
+constexpr double kCrossingSlack_m = 0.3;
+/// Gateways of two readings are the same one within these.
+constexpr double kSameGateway_m = 1.0;
+constexpr double kSameGateway_rad = 0.6;
+
+/// Equal but for the gateway that numbering starts from.
+bool same_star(const Star& a, const Star& b) {
+  const std::size_t n = a.slots.size();
+  if (b.slots.size() != n) {
+    return false;
+  }
+  for (std::size_t shift = 0; shift < std::max<std::size_t>(n, 1); ++shift) {
+    bool equal = true;
+    for (std::size_t i = 0; i < n && equal; ++i) {
+      const StarSlot& p = a.slots[i];
+      const StarSlot& q = b.slots[(i + shift) % n];
+      equal = (p.gateway < 0) == (q.gateway < 0) && (p.partner + shift) % n == q.partner;
+    }
+    if (equal) {
+      return true;
+    }
+  }
+  return false;
+}
+
+struct Passage {
+  int gateway = -1;
+  int sign = 0;  ///< +1 outward, -1 inward.
+};
+
+/// The last passage of a way through any gateway; only inward ones, or outward ones, if asked.
+Passage last_passage(const std::vector<Gateway>& gateways,
+                     const std::vector<StampedPose>& way,
+                     int wanted_sign) {
+  for (std::size_t i = way.size(); i-- > 1;) {
+    for (std::size_t g = 0; g < gateways.size(); ++g) {
+      const int sign = crossing(gateways[g], way[i - 1].T_lpm_robot.translation(),
+                                way[i].T_lpm_robot.translation(), kCrossingSlack_m);
+      if (sign != 0 && (wanted_sign == 0 || sign == wanted_sign)) {
+        return {static_cast<int>(g), sign};
+      }
+    }
+  }
+  return {};
+}
+
+/// A rectangle of a map, moved into another frame by a translation of whole cells.
+OccupancyGrid cropped(const OccupancyGrid& grid,
+                      const Vector2d& low,
+                      const Vector2d& high,
+                      const Vector2d& new_origin) {
+  const GridGeometry& from = grid.geometry();
+  const Cell a = from.cell_at(low);
+  const Cell b = from.cell_at(high);
+  const Cell lower{std::clamp(a.x, 0, from.width), std::clamp(a.y, 0, from.height)};
+  GridGeometry to = from;
+  to.width = std::max(0, std::min(b.x + 1, from.width) - lower.x);
+  to.height = std::max(0, std::min(b.y + 1, from.height) - lower.y);
+  to.origin_m = from.origin_m + from.cell_m * Vector2d(lower.x, lower.y) - new_origin;
+  OccupancyGrid crop(to);
+  for (int y = 0; y < to.height; ++y) {
+    for (int x = 0; x < to.width; ++x) {
+      crop.log_odds({x, y}) = grid.log_odds({lower.x + x, lower.y + y});
+    }
+  }
+  return crop;
+}
+
+}  // namespace
+
+bool is_same_gateway(const Gateway& a, const Gateway& b) {
+  return (a.middle - b.middle).norm() < kSameGateway_m &&
+         std::abs(turn_between(a.outward_bearing_rad, b.outward_bearing_rad)) < kSameGateway_rad;
+}
+
+bool agree(const PlaceNeighbourhood& a, const PlaceNeighbourhood& b) {
+  return a.gateways.size() == b.gateways.size() && same_star(a.star, b.star) &&
+         std::all_of(a.gateways.begin(), a.gateways.end(), [&](const Gateway& gateway) {
+           return std::any_of(b.gateways.begin(), b.gateways.end(), [&](const Gateway& other) {
+             return is_same_gateway(gateway, other);
+           });
+         });
+}
+
+PlaceStay::PlaceStay(const StampedPose& entry,
+                     std::vector<StampedPose> way_before,
+                     bool has_come_from_outside)
+    : entry_(entry), has_come_from_outside_(has_come_from_outside), way_(std::move(way_before)) {
+  way_.push_back(entry);
+}
+
+void PlaceStay::add_reading(const PlaceNeighbourhood& reading) {
+  last_reading_ = reading;
+  if (!reading.is_complete) {
+    return;
+  }
+  for (Group& group : groups_) {
+    if (agree(group.latest, reading)) {
+      group.latest = reading;
+      ++group.count;
+      return;
+    }
+  }
+  groups_.push_back({1, reading});
+}
+
+void PlaceStay::add_pose(const StampedPose& pose) {
+  const Vector2d step = pose.T_lpm_robot.translation() - way_.back().T_lpm_robot.translation();
+  if (step.norm() >= kPoseSpacing_m) {
+    way_.push_back(pose);
+  }
+}
+
+bool PlaceStay::is_complete() const {
+  return !groups_.empty();
+}
+
+const PlaceNeighbourhood& PlaceStay::best() const {
+  const Group* best = nullptr;
+  for (const Group& group : groups_) {
+    best = best == nullptr || group.count >= best->count ? &group : best;
+  }
+  return best != nullptr ? best->latest : last_reading_;
+}
+
+int PlaceStay::gateway_left_through(double beyond_m) const {
+  const std::vector<Gateway>& gateways = best().gateways;
+  const Passage last = last_passage(gateways, way_, 0);
+  if (last.sign <= 0) {
+    return -1;
+  }
+  const Gateway& gateway = gateways[static_cast<std::size_t>(last.gateway)];
+  const double beyond = distance_beyond_m(gateway, way_.back().T_lpm_robot.translation());
+  return beyond >= beyond_m ? last.gateway : -1;
+}
+
+bool PlaceStay::is_far_outside(double beyond_m) const {
+  const Vector2d from_center = way_.back().T_lpm_robot.translation() - best().center;
+  return from_center.norm() > best().radius_m + beyond_m;
+}
+
+int PlaceStay::gateway_entered_by(const std::vector<StampedPose>& way) const {
+  return last_passage(best().gateways, way, -1).gateway;
+}
+
+int PlaceStay::nearest_gateway(const Vector2d& p_lpm) const {
+  const std::vector<Gateway>& gateways = best().gateways;
+  int nearest = -1;
+  double least_m = std::numeric_limits<double>::infinity();
+  for (std::size_t g = 0; g < gateways.size(); ++g) {
+    const double distance_m = (gateways[g].middle - p_lpm).norm();
+    if (distance_m < least_m) {
+      least_m = distance_m;
+      nearest = static_cast<int>(g);
+    }
+  }
+  return nearest;
+}
+
+int PlaceStay::arrival() const {
+  if (!has_come_from_outside_) {
+    return -1;
+  }
+  const std::vector<Gateway>& gateways = best().gateways;
+  for (std::size_t i = 1; i < way_.size(); ++i) {
+    for (std::size_t g = 0; g < gateways.size(); ++g) {
+      if (crossing(gateways[g], way_[i - 1].T_lpm_robot.translation(),
+                   way_[i].T_lpm_robot.translation(), kCrossingSlack_m) < 0) {
+        return static_cast<int>(g);
+      }
+    }
+  }
+  return nearest_gateway(way_.front().T_lpm_robot.translation());
+}
+
+void PlaceStay::leave() {
+  const Passage last = last_passage(best().gateways, way_, +1);
+  departure_ =
+      last.gateway >= 0 ? last.gateway : nearest_gateway(way_.back().T_lpm_robot.translation());
+}
+
+std::vector<StampedPose> PlaceStay::last_of_way(double keep_m) const {
+  const auto count = std::min(way_.size(), static_cast<std::size_t>(keep_m / kPoseSpacing_m));
+  return {way_.end() - static_cast<std::ptrdiff_t>(count), way_.end()};
+}
+
+void PlaceStay::keep_map(const OccupancyGrid& grid, double crop_margin_m) {
+  const PlaceNeighbourhood& place = best();
+  const GridGeometry& geometry = grid.geometry();
+  const Vector2d cells = (place.center - geometry.origin_m) / geometry.cell_m;
+  const Vector2d origin =
+      geometry.origin_m + geometry.cell_m * Vector2d(std::round(cells.x()), std::round(cells.y()));
+  T_lpm_place_ = Pose2(origin, 0.0);
+  Vector2d low = origin;
+  Vector2d high = origin;
+  for (const Gateway& gateway : place.gateways) {
+    for (const Vector2d& p : gateway.basis_points) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+  }
+  const Vector2d margin(crop_margin_m, crop_margin_m);
+  crop_ = cropped(grid, low - margin, high + margin, origin);
+}
+
+void PlaceStay::reopen(const std::vector<StampedPose>& way_back) {
+  departure_ = -1;
+  way_.insert(way_.end(), way_back.begin(), way_back.end());
+}
+
+PlaceVisit PlaceStay::visit() const {
+  const Pose2 T_place_lpm = T_lpm_place_.inverse();
+  PlaceVisit visit;
+  visit.entered = entry_.time;
+  visit.left = way_.back().time;
+  visit.T_lpm_place = T_lpm_place_;
+  visit.neighbourhood = transformed(T_place_lpm, best());
+  visit.arrival_gateway = arrival();
+  visit.departure_gateway = departure_;
+  visit.T_place_robot_at_entry = T_place_lpm * entry_.T_lpm_robot;
+  visit.T_place_robot_at_exit = T_place_lpm * way_.back().T_lpm_robot;
+  visit.lpm = crop_;
+  return visit;
+}
+
+}  // namespace cairn
