@@ -205,11 +205,15 @@ void HypothesisTree::grow(const std::vector<Candidate>& candidates, const Arriva
     Hypothesis& parent = fringe_[next.leaf];
     const bool is_last_child =
         index + 1 == candidates.size() || candidates[index + 1].leaf != next.leaf;
-    const HypothesisId id{next_id_++};
-    nodes_.push_back({id, parent.id, arrival.visit, next.step});
-    grown.push_back({id, parent.id, is_last_child ? std::move(parent.map) : parent.map,
-                     next.log_steps, parent.log_layout});
-    apply(next.step, arrival, grown.back().map);
+    Hypothesis child{parent.id, parent.parent, is_last_child ? std::move(parent.map) : parent.map,
+                     next.log_steps, parent.log_layout};
+    if (next.step.kind != StepKind::kKnownLink) {
+      child.id = HypothesisId{next_id_++};
+      child.parent = parent.id;
+      nodes_.push_back({child.id, child.parent, arrival.visit, next.step});
+    }
+    apply(next.step, arrival, child.map);
+    grown.push_back(std::move(child));
   }
   fringe_ = std::move(grown);
 }

@@ -14,7 +14,7 @@ namespace cairn {
 
 /// A leaf of the tree: a map that explains everything experienced so far.
 struct Hypothesis {
-  HypothesisId id;
+  HypothesisId id;  ///< Stays while travels only follow known links: it names the map.
   HypothesisId parent;
   TopologicalMap map;
   double log_steps = 0.0;   ///< Priors, evidence of same places, penalties.
@@ -62,20 +62,21 @@ class HypothesisTree {
 
   /// The map of a leaf. @pre the hypothesis is on the fringe
   [[nodiscard]] const TopologicalMap& map(HypothesisId leaf) const;
-  /// The map of any node from which a leaf descends, rebuilt from the experience.
-  /// @pre is_known(id)
-  [[nodiscard]] TopologicalMap map_at(HypothesisId id) const;
-  /// No hypothesis for the root. @pre is_known(id)
+  /// What this leaf's map was after an earlier visit, rebuilt from the experience.
+  /// @pre the hypothesis is on the fringe; 0 <= visit < visit_count()
+  [[nodiscard]] TopologicalMap map_at(HypothesisId leaf, VisitId visit) const;
+  /// One line for each alternative that this leaf's map had at a visit: which was taken, which
+  /// closures were possible, which were refuted and why.
+  /// @pre as map_at()
+  [[nodiscard]] std::vector<std::string> explanation(HypothesisId leaf, VisitId visit) const;
+
+  /// The map from which this one grew; none for the first. @pre is_known(id)
   [[nodiscard]] HypothesisId parent(HypothesisId id) const;
-  /// The step that led to it, and at which visit. @pre is_known(id)
+  /// The step by which it grew from its parent, and at which visit. @pre is_known(id)
   [[nodiscard]] Step step(HypothesisId id) const;
   [[nodiscard]] VisitId visit(HypothesisId id) const;
-  /// Leaves and their ancestors are known; nodes that died out are forgotten now and then.
+  /// Leaves and their ancestors are known; maps that died out are forgotten now and then.
   [[nodiscard]] bool is_known(HypothesisId id) const { return find_node(id) != nullptr; }
-
-  /// One line for each alternative that this hypothesis's parent had at its visit: which was taken,
-  /// which closures were possible, which were refuted and why. @pre is_known(id)
-  [[nodiscard]] std::vector<std::string> explanation(HypothesisId id) const;
 
   /// The first time, if ever.
   [[nodiscard]] const std::optional<GuaranteeGivenUp>& guarantee_given_up() const {
@@ -88,6 +89,7 @@ class HypothesisTree {
   [[nodiscard]] int visit_count() const { return static_cast<int>(experience_.size()); }
 
  private:
+  /// How one map grew from another. Travels along known links leave no node.
   struct Node {
     HypothesisId id;
     HypothesisId parent;
@@ -121,6 +123,7 @@ class HypothesisTree {
   void forget_the_dead();
   void give_up_guarantee(GuaranteeLoss loss, std::string reason, ExtendReport& report) const;
   [[nodiscard]] const Node* find_node(HypothesisId id) const;
+  [[nodiscard]] const Hypothesis& leaf_of(HypothesisId id) const;
   [[nodiscard]] std::string describe(const TopologicalMap& map,
                                      const Alternative& alternative,
                                      const Arrival& arrival) const;
@@ -129,7 +132,7 @@ class HypothesisTree {
   Evidence evidence_;
   std::shared_ptr<const StarCatalogue> stars_;
   std::vector<Experienced> experience_;
-  std::vector<Node> nodes_;  // By id.
+  std::vector<Node> nodes_;  // By id, so that children come after their parents.
   std::vector<Hypothesis> fringe_;
   std::int32_t next_id_ = 0;
   std::size_t nodes_to_keep_ = 0;  // As many as were alive when the dead were last forgotten.

@@ -22,8 +22,10 @@ std::string text_of(double value) {
   return text.data();
 }
 
-bool is_same(const Step& a, const Step& b) {
-  return a.kind == b.kind && a.target == b.target;
+/// Where a step puts the visit; no two alternatives put it at the same place by the same gateway.
+VisitedPlace place_after(const Step& step, const Arrival& arrival, TopologicalMap map) {
+  apply(step, arrival, map);
+  return map.at_visit(arrival.visit);
 }
 
 }  // namespace
@@ -65,21 +67,32 @@ std::vector<HypothesisId> HypothesisTree::simplest_closed() const {
 }
 
 const TopologicalMap& HypothesisTree::map(HypothesisId leaf) const {
-  const auto found = std::find_if(fringe_.begin(), fringe_.end(),
-                                  [&](const Hypothesis& other) { return other.id == leaf; });
-  CAIRN_CHECK(found != fringe_.end());
-  return found->map;
+  return leaf_of(leaf).map;
 }
 
-TopologicalMap HypothesisTree::map_at(HypothesisId id) const {
-  std::vector<const Node*> chain;
-  for (const Node* node = find_node(id); node != nullptr; node = find_node(node->parent)) {
-    chain.push_back(node);
+const Hypothesis& HypothesisTree::leaf_of(HypothesisId id) const {
+  const auto found = std::find_if(fringe_.begin(), fringe_.end(),
+                                  [&](const Hypothesis& leaf) { return leaf.id == id; });
+  CAIRN_CHECK(found != fringe_.end());
+  return *found;
+}
+
+TopologicalMap HypothesisTree::map_at(HypothesisId leaf, VisitId visit) const {
+  CAIRN_CHECK(visit.is_valid() && visit.index() < experience_.size());
+  std::vector<const Node*> growth;  // By visit; nothing where a known link was followed.
+  growth.resize(experience_.size(), nullptr);
+  for (const Node* node = find_node(leaf_of(leaf).id); node != nullptr;
+       node = find_node(node->parent)) {
+    growth[node->visit.index()] = node;
   }
-  CAIRN_CHECK(!chain.empty());
   TopologicalMap map(stars_, experience_.front().arrival);
-  for (auto node = chain.rbegin() + 1; node != chain.rend(); ++node) {
-    apply((*node)->step, experience_[(*node)->visit.index()].arrival, map);
+  for (std::size_t next = 1; next <= visit.index(); ++next) {
+    const Experienced& then = experience_[next];
+    if (growth[next] != nullptr) {
+      apply(growth[next]->step, then.arrival, map);
+    } else {
+      map.follow(map.departure(then.action), then.arrival);
+    }
   }
   return map;
 }
@@ -99,25 +112,24 @@ VisitId HypothesisTree::visit(HypothesisId id) const {
   return find_node(id)->visit;
 }
 
-std::vector<std::string> HypothesisTree::explanation(HypothesisId id) const {
-  CAIRN_CHECK(is_known(id));
-  const Node& node = *find_node(id);
-  if (!node.parent.is_valid()) {
+std::vector<std::string> HypothesisTree::explanation(HypothesisId leaf, VisitId visit) const {
+  const VisitedPlace outcome = leaf_of(leaf).map.at_visit(visit);
+  if (visit.index() == 0) {
     return {"visit 0: the first place"};
   }
-  const Experienced& now = experience_[node.visit.index()];
-  const TopologicalMap before = map_at(node.parent);
+  const Experienced& now = experience_[visit.index()];
+  const TopologicalMap before = map_at(leaf, VisitId{visit.value - 1});
   std::vector<std::string> lines;
   bool is_among_alternatives = false;
   for (const Alternative& alternative :
        alternatives(before, now.action, now.arrival, options_, evidence_)) {
-    const bool is_taken =
-        alternative.refuted_by == Refutation::kNone && is_same(alternative.step, node.step);
+    const bool is_taken = alternative.refuted_by == Refutation::kNone &&
+                          place_after(alternative.step, now.arrival, before) == outcome;
     is_among_alternatives = is_among_alternatives || is_taken;
     lines.push_back(describe(before, alternative, now.arrival) + (is_taken ? " [taken]" : ""));
   }
   if (!is_among_alternatives) {
-    lines.push_back("visit " + std::to_string(node.visit.value) +
+    lines.push_back("visit " + std::to_string(visit.value) +
                     ": nothing explains it; recorded as a new place by a break [taken]");
   }
   return lines;
@@ -159,7 +171,7 @@ void HypothesisTree::forget_the_dead() {
     is_alive[index_of(leaf.id)] = true;
   }
   std::vector<Node> alive;
-  for (std::size_t index = nodes_.size(); index-- > 0;) {  // Children come after their parents.
+  for (std::size_t index = nodes_.size(); index-- > 0;) {
     if (is_alive[index]) {
       alive.push_back(nodes_[index]);
       if (nodes_[index].parent.is_valid()) {
