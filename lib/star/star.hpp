@@ -1,7 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string_view>
 #include <vector>
+
+#include "base/result.hpp"
 
 namespace cairn {
 
@@ -22,11 +26,31 @@ struct StarSlot {
 /// The local topology of a place: its directed path fragments in clockwise order, terminated ends
 /// included. Gateways are numbered 0, 1, ... clockwise: in the order of the slots that leave.
 ///
-/// Source: Kuipers et al., ICRA 2004, Sec. III-C (small-scale star, Fig. 3(e)). As both ends of each
-/// fragment are listed, left and right can be told without angles.
+/// Source: Kuipers et al., ICRA 2004, Sec. III-C (small-scale star, Fig. 3(e)). As both ends of
+/// each fragment are listed, left and right can be told without angles.
 struct Star {
   std::vector<StarSlot> slots;
   friend bool operator==(const Star&, const Star&) = default;
 };
+
+/// Whether the star is one of a place: at least one gateway; gateways numbered 0, 1, ... in the
+/// order of the slots; every slot has another one as its partner, and each is the other's; no
+/// fragment without a gateway. Control laws are not looked at.
+///
+/// Everything below needs a valid star.
+Status validate(const Star& star);
+
+[[nodiscard]] int gateway_count(const Star& star);
+
+/// @pre 0 <= gateway < gateway_count(star)
+[[nodiscard]] std::size_t slot_of_gateway(const Star& star, int gateway);
+
+/// The gateway through which a traveller who came in by this one goes straight on; nothing where
+/// the fragment terminates at the place.
+/// @pre 0 <= gateway < gateway_count(star)
+[[nodiscard]] std::optional<int> through_partner(const Star& star, int gateway);
+
+/// As the papers print it: MIDLINE, LEFTWALL, RIGHTWALL, DEADEND, NONE.
+[[nodiscard]] std::string_view name_of(ControlLaw law);
 
 }  // namespace cairn

@@ -1,0 +1,253 @@
+#include "topology/hypothesis_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "base/check.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// What a preference compares; `age` decides between equals, so that the order is reproducible.
+struct Rank {
+  double log_posterior = 0.0;
+  int path_count = 0;
+  int place_count = 0;
+  std::int64_t age = 0;
+};
+
+bool comes_before(const Rank& a, const Rank& b, Preference preference) {
+  const auto simplicity = [](const Rank& rank) {
+    return std::tuple(rank.path_count, rank.place_count);
+  };
+  if (preference == Preference::kPosterior) {
+    return std::tuple(-a.log_posterior, simplicity(a), a.age) <
+           std::tuple(-b.log_posterior, simplicity(b), b.age);
+  }
+  return std::tuple(simplicity(a), -a.log_posterior, a.age) <
+         std::tuple(simplicity(b), -b.log_posterior, b.age);
+}
+
+Rank rank_of(const Hypothesis& hypothesis) {
+  return {hypothesis.log_posterior(), hypothesis.map.path_count(), hypothesis.map.place_count(),
+          hypothesis.id.value};
+}
+
+}  // namespace
+
+HypothesisTree::HypothesisTree(const TopologyOptions& options, Evidence evidence)
+    : options_(options),
+      evidence_(std::move(evidence)),
+      stars_(std::make_shared<const StarCatalogue>()) {
+  CAIRN_CHECK(validate(options).ok());
+}
+
+void HypothesisTree::start(const View& view) {
+  CAIRN_CHECK(!is_started() && validate(view).ok() && view.visit.index() == 0);
+  const Arrival arrival = recognise(view);
+  experience_.push_back({{}, arrival});
+  const HypothesisId root{next_id_++};
+  nodes_.push_back({root, {}, view.visit, {}});
+  fringe_.push_back({root, {}, TopologicalMap(stars_, arrival)});
+  node_count_ = 1;
+  maps_built_ = 1;
+  ExtendReport unreported;
+  lay_out(unreported);
+}
+
+ExtendReport HypothesisTree::extend(Action action, const View& view) {
+  CAIRN_CHECK(is_started() && validate(view).ok() && view.visit.index() == experience_.size());
+  const Experienced now{action, recognise(view)};
+  ExtendReport report;
+  report.visit = view.visit;
+  std::vector<Candidate> candidates = successors(now, report);
+  if (candidates.empty()) {
+    candidates = breaks(now, report);
+  }
+  keep_best(candidates, report);
+  grow(candidates, now.arrival);
+  experience_.push_back(now);
+  lay_out(report);
+  rank();
+  forget_the_dead();
+  node_count_ += report.nodes_added;
+  maps_built_ += report.closures + report.new_places;
+  report.leaves = static_cast<std::int64_t>(fringe_.size());
+  if (!given_up_) {
+    given_up_ = report.guarantee_given_up;
+  }
+  return report;
+}
+
+Arrival HypothesisTree::recognise(const View& view) {
+  std::optional<StarId> star = stars_->find(view.star);
+  if (!star) {
+    // Maps handed out keep the catalogue they have: it may be read by another thread.
+    auto extended = std::make_shared<StarCatalogue>(*stars_);
+    star = extended->add(view.star);
+    stars_ = std::move(extended);
+    for (Hypothesis& leaf : fringe_) {
+      leaf.map.refer_to(stars_);
+    }
+  }
+  return {*star, view.arrival_gateway, view.visit};
+}
+
+std::vector<HypothesisTree::Candidate> HypothesisTree::successors(const Experienced& now,
+                                                                  ExtendReport& report) const {
+  std::vector<Candidate> candidates;
+  for (std::size_t leaf = 0; leaf < fringe_.size(); ++leaf) {
+    for (const Alternative& alternative :
+         alternatives(fringe_[leaf].map, now.action, now.arrival, options_, evidence_)) {
+      if (alternative.refuted_by == Refutation::kNone) {
+        count_possible(alternative.step.kind, report);
+        candidates.push_back(candidate(leaf, alternative, now.arrival));
+      } else {
+        count_refuted(alternative, report);
+      }
+    }
+  }
+  return candidates;
+}
+
+std::vector<HypothesisTree::Candidate> HypothesisTree::breaks(const Experienced& now,
+                                                              ExtendReport& report) const {
+  const auto most = static_cast<std::size_t>(options_.max_broken_hypotheses);
+  std::vector<Candidate> candidates;
+  for (std::size_t leaf = 0; leaf < std::min(most, fringe_.size()); ++leaf) {
+    const TopologicalMap& map = fringe_[leaf].map;
+    const GatewayRef departure = map.departure(now.action);
+    // From a pending gateway only the bound on places can have left no way out.
+    Alternative broken{{map.is_pending(departure) ? StepKind::kNewPlace : StepKind::kContradiction,
+                        departure,
+                        {}}};
+    broken.log_likelihood = options_.log_prior_new_place - options_.log_penalty_break;
+    count_possible(broken.step.kind, report);
+    candidates.push_back(candidate(leaf, broken, now.arrival));
+  }
+  report.was_break_needed = true;
+  report.dropped = static_cast<std::int64_t>(fringe_.size() - candidates.size());
+  const TopologicalMap& best = fringe_.front().map;
+  std::string reason = "no hypothesis explains the visit; in the best one: ";
+  for (const Alternative& alternative :
+       alternatives(best, now.action, now.arrival, options_, evidence_)) {
+    reason += describe(best, alternative, now.arrival) + "; ";
+  }
+  give_up_guarantee(GuaranteeLoss::kContradiction, reason.substr(0, reason.size() - 2), report);
+  return candidates;
+}
+
+HypothesisTree::Candidate HypothesisTree::candidate(std::size_t leaf,
+                                                    const Alternative& alternative,
+                                                    const Arrival& arrival) const {
+  const Hypothesis& parent = fringe_[leaf];
+  const StepKind kind = alternative.step.kind;
+  const bool is_place_added = kind == StepKind::kNewPlace || kind == StepKind::kContradiction;
+  // A link joins two paths; a break adds the fragments of its place without a link.
+  const bool is_link_added = kind == StepKind::kNewPlace || kind == StepKind::kClosure;
+  Candidate next;
+  next.leaf = leaf;
+  next.step = alternative.step;
+  next.log_steps = parent.log_steps + alternative.log_likelihood;
+  next.log_posterior = next.log_steps + parent.log_layout;
+  next.path_count = parent.map.path_count() - (is_link_added ? 1 : 0) +
+                    (is_place_added ? stars_->fragment_count(arrival.star) : 0);
+  next.place_count = parent.map.place_count() + (is_place_added ? 1 : 0);
+  return next;
+}
+
+void HypothesisTree::keep_best(std::vector<Candidate>& candidates, ExtendReport& report) const {
+  const auto most = static_cast<std::size_t>(options_.max_hypotheses);
+  if (candidates.size() <= most) {
+    return;
+  }
+  std::vector<std::size_t> order(candidates.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto is_better = [&](std::size_t a, std::size_t b) {
+    const auto rank_at = [&](std::size_t index) {
+      const Candidate& next = candidates[index];
+      return Rank{next.log_posterior, next.path_count, next.place_count,
+                  static_cast<std::int64_t>(index)};
+    };
+    return comes_before(rank_at(a), rank_at(b), options_.preference);
+  };
+  const auto first_dropped = order.begin() + static_cast<std::ptrdiff_t>(most);
+  std::nth_element(order.begin(), first_dropped, order.end(), is_better);
+  for (auto dropped = first_dropped; dropped != order.end(); ++dropped) {
+    report.best_dropped_log_posterior =
+        std::max(report.best_dropped_log_posterior, candidates[*dropped].log_posterior);
+  }
+  report.dropped += static_cast<std::int64_t>(order.size() - most);
+  give_up_guarantee(
+      GuaranteeLoss::kBudget,
+      std::to_string(order.size()) + " hypotheses, max_hypotheses is " + std::to_string(most),
+      report);
+  order.resize(most);
+  std::sort(order.begin(), order.end());
+  std::vector<Candidate> kept;
+  kept.reserve(most);
+  for (const std::size_t index : order) {
+    kept.push_back(candidates[index]);
+  }
+  candidates = std::move(kept);
+}
+
+void HypothesisTree::grow(const std::vector<Candidate>& candidates, const Arrival& arrival) {
+  std::vector<Hypothesis> grown;
+  grown.reserve(candidates.size());
+  for (std::size_t index = 0; index < candidates.size(); ++index) {
+    const Candidate& next = candidates[index];
+    Hypothesis& parent = fringe_[next.leaf];
+    const bool is_last_child =
+        index + 1 == candidates.size() || candidates[index + 1].leaf != next.leaf;
+    const HypothesisId id{next_id_++};
+    nodes_.push_back({id, parent.id, arrival.visit, next.step});
+    grown.push_back({id, parent.id, is_last_child ? std::move(parent.map) : parent.map,
+                     next.log_steps, parent.log_layout});
+    apply(next.step, arrival, grown.back().map);
+  }
+  fringe_ = std::move(grown);
+}
+
+void HypothesisTree::lay_out(ExtendReport& report) {
+  if (!evidence_.layout) {
+    return;
+  }
+  // A layout inherited from the parent is an upper bound, so the order need not be revised.
+  std::stable_sort(fringe_.begin(), fringe_.end(), [](const Hypothesis& a, const Hypothesis& b) {
+    return a.log_posterior() > b.log_posterior();
+  });
+  double best = -kInfinity;
+  for (Hypothesis& leaf : fringe_) {
+    leaf.is_layout_deferred = leaf.log_posterior() < best - options_.layout_margin;
+    if (leaf.is_layout_deferred) {
+      ++report.layouts_deferred;
+      continue;
+    }
+    leaf.log_layout = evidence_.layout(leaf.map);
+    CAIRN_CHECK(leaf.log_layout < kInfinity);  // NaN compares false.
+    best = std::max(best, leaf.log_posterior());
+    ++report.layouts_evaluated;
+  }
+}
+
+void HypothesisTree::rank() {
+  std::sort(fringe_.begin(), fringe_.end(), [&](const Hypothesis& a, const Hypothesis& b) {
+    return comes_before(rank_of(a), rank_of(b), options_.preference);
+  });
+}
+
+void HypothesisTree::give_up_guarantee(GuaranteeLoss loss,
+                                       std::string reason,
+                                       ExtendReport& report) const {
+  if (!report.guarantee_given_up) {
+    report.guarantee_given_up = GuaranteeGivenUp{report.visit, loss, std::move(reason)};
+  }
+}
+
+}  // namespace cairn

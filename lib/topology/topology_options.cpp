@@ -1,0 +1,21 @@
+#include "topology/topology_options.hpp"
+
+#include "base/validator.hpp"
+
+namespace cairn {
+
+Status validate(const TopologyOptions& options) {
+  constexpr double kMostHypotheses = 10'000'000;
+  return Validator("topology")
+      .require("max_places", options.max_places.value_or(1) >= 1, "be at least 1")
+      .within("max_hypotheses", options.max_hypotheses, 1, kMostHypotheses)
+      .within("max_broken_hypotheses", options.max_broken_hypotheses, 1, kMostHypotheses)
+      .within("log_prior_new_place", options.log_prior_new_place, -1000.0, 0.0)
+      .within("log_penalty_break", options.log_penalty_break, 0.0, 10'000.0)
+      .within("log_penalty_misread", options.log_penalty_misread, 0.0, 10'000.0)
+      .within("recognition_threshold", options.recognition_threshold, 0.0, 10'000.0)
+      .within("layout_margin", options.layout_margin, 0.0, 1e6)
+      .status();
+}
+
+}  // namespace cairn

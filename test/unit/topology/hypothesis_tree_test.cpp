@@ -1,0 +1,332 @@
+#include "topology/hypothesis_tree.hpp"
+
+#include <cmath>
+#include <numeric>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/lattice.hpp"
+#include "support/stars.hpp"
+
+namespace cairn::test {
+namespace {
+
+using ::testing::Contains;
+using ::testing::DoubleNear;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+/// A robot that tells a tree what it sees.
+class Traveller {
+ public:
+  Traveller(const Star& star,
+            int arrival_gateway,
+            const TopologyOptions& options = {},
+            Evidence evidence = {})
+      : tree_(options, std::move(evidence)) {
+    tree_.start({star, arrival_gateway, VisitId{0}});
+  }
+  ExtendReport travel(int turn, const Star& star, int arrival_gateway) {
+    return tree_.extend({turn}, {star, arrival_gateway, VisitId{tree_.visit_count()}});
+  }
+  [[nodiscard]] const HypothesisTree& tree() const { return tree_; }
+  [[nodiscard]] const Hypothesis& best() const { return tree_.fringe().front(); }
+
+ private:
+  HypothesisTree tree_;
+};
+
+/// Around a block of four corners, always turning right: a square, a triangle, two corners or a
+/// chain.
+Traveller around_the_block(const TopologyOptions& options = {}, Evidence evidence = {}) {
+  Traveller robot(corner(), 0, options, std::move(evidence));
+  robot.travel(0, corner(), 1);
+  for (int side = 1; side < 4; ++side) {
+    robot.travel(1, corner(), 1);
+  }
+  return robot;
+}
+
+TEST(HypothesisTree, BeginsWithOnePlace) {
+  const Traveller robot(tee(), 1);
+  ASSERT_THAT(robot.tree().fringe(), SizeIs(1));
+  EXPECT_EQ(robot.tree().node_count(), 1);
+  EXPECT_FALSE(robot.tree().parent(robot.best().id).is_valid());
+  EXPECT_THAT(robot.tree().explanation(robot.best().id), ElementsAre(HasSubstr("first place")));
+}
+
+TEST(HypothesisTree, AroundABlockItHoldsEveryLoopAndTheChain) {
+  const Traveller robot = around_the_block();
+  EXPECT_EQ(robot.tree().node_count(), 11);
+  EXPECT_EQ(robot.tree().maps_built(), 8);
+  EXPECT_THAT(robot.tree().fringe(), SizeIs(4));
+}
+
+TEST(HypothesisTree, PrefersFewestPathsThenPlaces) {
+  const Traveller robot = around_the_block();
+  std::vector<int> paths;
+  for (const Hypothesis& leaf : robot.tree().fringe()) {
+    paths.push_back(leaf.map.path_count());
+  }
+  EXPECT_THAT(paths, ElementsAre(2, 3, 4, 6));
+}
+
+TEST(HypothesisTree, ReportsWhatAnArrivalDid) {
+  Traveller robot(corner(), 0);
+  robot.travel(0, corner(), 1);
+  robot.travel(1, corner(), 1);
+  const ExtendReport report = robot.travel(1, corner(), 1);
+  EXPECT_EQ(report.visit, VisitId{3});
+  EXPECT_EQ(report.leaves, report.nodes_added);
+  EXPECT_EQ(report.nodes_added, report.closures + report.new_places + report.known_links);
+  EXPECT_EQ(report.known_links, 1);
+  EXPECT_EQ(report.closures, 1);
+  EXPECT_FALSE(report.guarantee_given_up);
+  EXPECT_FALSE(report.was_break_needed);
+}
+
+TEST(HypothesisTree, AKnownLinkThatDisagreesEndsAHypothesis) {
+  Traveller robot = around_the_block();
+  // On with a left turn: the loops expected a right turn.
+  const ExtendReport report = robot.travel(1, corner(), 0);
+  EXPECT_EQ(report.links_contradicted, 3);
+  ASSERT_THAT(robot.tree().fringe(), SizeIs(1));
+  EXPECT_EQ(robot.best().map.place_count(), 6);
+}
+
+TEST(HypothesisTree, RebuildsTheMapOfEveryAncestor) {
+  const Traveller robot = around_the_block();
+  for (const Hypothesis& leaf : robot.tree().fringe()) {
+    const TopologicalMap rebuilt = robot.tree().map_at(leaf.id);
+    EXPECT_EQ(rebuilt.position(), leaf.map.position());
+    EXPECT_EQ(rebuilt.path_count(), leaf.map.path_count());
+    EXPECT_EQ(rebuilt.pending_gateways(), leaf.map.pending_gateways());
+    EXPECT_EQ(robot.tree().map_at(robot.tree().parent(leaf.id)).visit_count(), 4);
+    EXPECT_EQ(robot.tree().visit(leaf.id), VisitId{4});
+  }
+}
+
+TEST(HypothesisTree, ExplainsWhatWasTakenAndWhatWasRefuted) {
+  Traveller robot(corner(), 0);
+  robot.travel(0, corner(), 1);
+  robot.travel(1, tee(), 2);
+  robot.travel(1, corner(), 1);
+  const std::vector<std::string> lines = robot.tree().explanation(robot.best().id);
+  EXPECT_THAT(lines, Contains(HasSubstr("[taken]")));
+  EXPECT_THAT(lines, Contains(HasSubstr("refuted: the star looks different from there")));
+  EXPECT_THAT(lines, Each(HasSubstr("visit 3 (L), after leaving by gateway 0 of place 2")));
+}
+
+TEST(HypothesisTree, EvidenceDecidesBetweenClosures) {
+  TopologyOptions options;
+  options.preference = Preference::kPosterior;
+  Evidence evidence;
+  evidence.same_place = [](const TopologicalMap& before, VisitId visit, PlaceId same_as, int) {
+    return before.first_visit(same_as).value % 4 == visit.value % 4 ? 6.0 : -6.0;
+  };
+  const Traveller robot = around_the_block(options, evidence);
+  EXPECT_EQ(robot.best().map.place_count(), 4);
+  EXPECT_TRUE(robot.best().map.is_closed());
+  EXPECT_DOUBLE_EQ(robot.best().log_posterior(), 6.0 + 3.0 * options.log_prior_new_place);
+  const std::vector<double> shares = robot.tree().probabilities();
+  EXPECT_GT(shares.front(), 0.95);
+  EXPECT_THAT(std::accumulate(shares.begin(), shares.end(), 0.0), DoubleNear(1.0, 1e-12));
+}
+
+TEST(HypothesisTree, EvidenceCountsOnKnownLinksToo) {
+  TopologyOptions options;
+  options.preference = Preference::kPosterior;
+  Evidence evidence;
+  evidence.same_place = [](const TopologicalMap&, VisitId, PlaceId, int) { return -3.0; };
+  Traveller robot(corner(), 0, options, evidence);
+  robot.travel(0, tee(), 2);
+  robot.travel(0, corner(), 0);
+  EXPECT_DOUBLE_EQ(robot.best().log_posterior(), options.log_prior_new_place - 3.0);
+}
+
+TEST(HypothesisTree, LayoutIsEvaluatedOnceForEachLeafNearTheBest) {
+  TopologyOptions options;
+  options.preference = Preference::kPosterior;
+  options.layout_margin = 5.0;
+  int evaluated = 0;
+  Evidence evidence;
+  // Fits only if no loop of less than four places is closed.
+  evidence.layout = [&](const TopologicalMap& map) {
+    ++evaluated;
+    return map.closure_count() > 0 && map.place_count() < 4 ? -40.0 : 0.0;
+  };
+  Traveller robot(corner(), 0, options, evidence);
+  robot.travel(0, corner(), 1);
+  std::int64_t reported = 2;
+  std::int64_t leaves = 2;
+  for (int side = 1; side < 4; ++side) {
+    const ExtendReport report = robot.travel(1, corner(), 1);
+    EXPECT_EQ(report.layouts_evaluated + report.layouts_deferred, report.leaves);
+    reported += report.layouts_evaluated;
+    leaves += report.leaves;
+  }
+  EXPECT_EQ(evaluated, reported);
+  EXPECT_LT(reported, leaves);
+  EXPECT_EQ(robot.best().map.place_count(), 4);
+  EXPECT_FALSE(robot.best().is_layout_deferred);
+  EXPECT_TRUE(robot.tree().fringe().back().is_layout_deferred);
+  EXPECT_LT(robot.tree().fringe().back().log_posterior(), -39.0);  // The parent's, as a bound.
+}
+
+TEST(HypothesisTree, TheBudgetKeepsTheBestAndSaysWhatItDropped) {
+  TopologyOptions options;
+  options.max_hypotheses = 2;
+  const Traveller robot = around_the_block(options);
+  EXPECT_THAT(robot.tree().fringe(), SizeIs(2));
+  ASSERT_TRUE(robot.tree().guarantee_given_up());
+  EXPECT_EQ(robot.tree().guarantee_given_up()->visit, VisitId{3});
+  EXPECT_EQ(robot.tree().guarantee_given_up()->loss, GuaranteeLoss::kBudget);
+  EXPECT_EQ(robot.tree().guarantee_given_up()->reason, "3 hypotheses, max_hypotheses is 2");
+}
+
+TEST(HypothesisTree, TheBudgetReportsTheBestItDropped) {
+  TopologyOptions options;
+  options.max_hypotheses = 1;
+  options.preference = Preference::kPosterior;
+  Traveller robot(corner(), 0, options);
+  robot.travel(0, corner(), 1);
+  const ExtendReport report = robot.travel(1, corner(), 1);
+  EXPECT_EQ(report.dropped, 1);
+  EXPECT_DOUBLE_EQ(report.best_dropped_log_posterior, 2.0 * options.log_prior_new_place);
+  EXPECT_EQ(robot.best().map.place_count(), 2);
+}
+
+TEST(HypothesisTree, NeverEndsEmptyWhenTheWorldContradictsEveryMap) {
+  Traveller robot(corner(), 0);
+  robot.travel(0, tee(), 2);
+  const ExtendReport report = robot.travel(0, dead_end(), 0);  // The corner was expected.
+  EXPECT_TRUE(report.was_break_needed);
+  EXPECT_EQ(report.links_contradicted, 1);
+  ASSERT_TRUE(report.guarantee_given_up);
+  EXPECT_EQ(report.guarantee_given_up->visit, VisitId{2});
+  EXPECT_EQ(report.guarantee_given_up->loss, GuaranteeLoss::kContradiction);
+  EXPECT_THAT(report.guarantee_given_up->reason,
+              HasSubstr("visit 2 (D), after leaving by gateway 2 of place 1: known link to gateway "
+                        "0 of place 0 (L): refuted: the star looks different from there"));
+  ASSERT_THAT(robot.tree().fringe(), SizeIs(1));
+  EXPECT_EQ(robot.best().map.place_count(), 3);
+  EXPECT_TRUE(robot.best().map.is_unexplained({PlaceId{2}, 0}));
+  EXPECT_THAT(robot.tree().explanation(robot.best().id), Contains(HasSubstr("break [taken]")));
+  EXPECT_DOUBLE_EQ(robot.best().log_posterior(), 2.0 * TopologyOptions{}.log_prior_new_place -
+                                                     TopologyOptions{}.log_penalty_break);
+}
+
+TEST(HypothesisTree, GoesOnAfterAContradiction) {
+  Traveller robot(corner(), 0);
+  robot.travel(0, tee(), 2);
+  robot.travel(0, dead_end(), 0);
+  const ExtendReport back = robot.travel(0, tee(), 2);  // By the unexplained gateway.
+  EXPECT_FALSE(back.was_break_needed);
+  EXPECT_EQ(robot.best().map.position(), (GatewayRef{PlaceId{1}, 2}));
+  const ExtendReport again = robot.travel(0, dead_end(), 0);
+  EXPECT_EQ(again.rejoins, 1);
+  EXPECT_FALSE(again.was_break_needed);
+  EXPECT_EQ(robot.best().map.place_count(), 3);
+}
+
+TEST(HypothesisTree, OnlyTheBestSurviveAContradiction) {
+  TopologyOptions options;
+  options.max_broken_hypotheses = 2;
+  Traveller robot = around_the_block(options);
+  robot.travel(0, corner(), 0);  // Back the way it came: known to every hypothesis.
+  const ExtendReport report = robot.travel(0, tee(), 0);
+  EXPECT_TRUE(report.was_break_needed);
+  EXPECT_EQ(report.leaves, 2);
+  EXPECT_EQ(report.dropped, 2);
+}
+
+TEST(HypothesisTree, ABoundOnPlacesIsOverruledRatherThanEndingEmpty) {
+  TopologyOptions options;
+  options.max_places = 1;
+  Traveller robot(corner(), 0, options);
+  const ExtendReport report = robot.travel(0, tee(), 0);
+  EXPECT_EQ(report.beyond_place_bound, 1);
+  EXPECT_TRUE(report.was_break_needed);
+  EXPECT_EQ(robot.best().map.place_count(), 2);
+  EXPECT_FALSE(robot.best().map.is_pending({PlaceId{0}, 0}));
+}
+
+TEST(HypothesisTree, SameExperienceGivesTheSameTree) {
+  const Lattice streets(3, 3);
+  const Walk walk = streets.walk(0, "EESWWSEENNWSSW");
+  std::vector<HypothesisTree> trees(2, HypothesisTree(TopologyOptions{}));
+  for (HypothesisTree& tree : trees) {
+    tree.start(walk.start);
+    for (const Experienced& step : walk.steps) {
+      tree.extend(step.action, step.view);
+    }
+  }
+  ASSERT_EQ(trees[0].fringe().size(), trees[1].fringe().size());
+  for (std::size_t leaf = 0; leaf < trees[0].fringe().size(); ++leaf) {
+    EXPECT_EQ(trees[0].fringe()[leaf].id, trees[1].fringe()[leaf].id);
+    EXPECT_EQ(trees[0].fringe()[leaf].map.position(), trees[1].fringe()[leaf].map.position());
+  }
+}
+
+TEST(HypothesisTree, ForgetsDeadBranchesButNoAncestorOfALeaf) {
+  TopologyOptions options;
+  options.max_hypotheses = 100;
+  Traveller robot = around_the_block(options);
+  for (int visit = 5; visit < 1500; ++visit) {
+    robot.travel(1, corner(), 1);
+  }
+  const std::int32_t newest = robot.tree().fringe().back().id.value;
+  std::int32_t known = 0;
+  for (HypothesisId id{0}; id.value <= newest; ++id.value) {
+    known += robot.tree().is_known(id) ? 1 : 0;
+  }
+  EXPECT_LT(known, newest);
+  for (const Hypothesis& leaf : robot.tree().fringe()) {
+    HypothesisId ancestor = leaf.id;
+    int steps = 0;
+    while (robot.tree().parent(ancestor).is_valid()) {
+      ancestor = robot.tree().parent(ancestor);
+      ++steps;
+    }
+    EXPECT_EQ(steps + 1, robot.tree().visit_count());
+  }
+}
+
+TEST(HypothesisTree, AMapHandedOutKeepsWhatItKnowsWhileTheTreeGoesOn) {
+  Traveller robot(corner(), 0);
+  const TopologicalMap handed_out = robot.best().map;
+  robot.travel(0, tee(), 2);
+  EXPECT_EQ(handed_out.place_count(), 1);
+  EXPECT_EQ(handed_out.star(PlaceId{0}), corner());
+}
+
+TEST(TopologyOptions, NamesEveryFieldOutOfRange) {
+  TopologyOptions options;
+  EXPECT_TRUE(validate(options).ok());
+  options.max_places = 0;
+  options.max_hypotheses = 0;
+  options.log_prior_new_place = std::nan("");
+  const Status status = validate(options);
+  ASSERT_FALSE(status.ok());
+  EXPECT_THAT(status.error().message, HasSubstr("topology.max_places"));
+  EXPECT_THAT(status.error().message, HasSubstr("topology.max_hypotheses"));
+  EXPECT_THAT(status.error().message, HasSubstr("topology.log_prior_new_place"));
+}
+
+TEST(HypothesisTreeDeathTest, RefusesExperienceThatBreaksItsPreconditions) {
+  Traveller robot(corner(), 0);
+  EXPECT_DEATH(robot.travel(2, corner(), 0), "turn");
+  EXPECT_DEATH(robot.travel(0, corner(), 2), "validate");
+  EXPECT_DEATH(robot.travel(0, Star{}, 0), "validate");
+  HypothesisTree fresh{TopologyOptions{}};
+  EXPECT_DEATH(fresh.extend({0}, {corner(), 0, VisitId{0}}), "is_started");
+  EXPECT_DEATH(fresh.start({corner(), 0, VisitId{5}}), "visit");
+}
+
+}  // namespace
+}  // namespace cairn::test
