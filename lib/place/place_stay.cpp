@@ -151,7 +151,8 @@ bool PlaceStay::is_far_outside(double beyond_m) const {
 }
 
 int PlaceStay::gateway_entered_by(const std::vector<StampedPose>& way) const {
-  return last_passage(best().gateways, way, -1).gateway;
+  const Passage last = last_passage(best().gateways, way, 0);
+  return last.sign < 0 ? last.gateway : -1;
 }
 
 int PlaceStay::nearest_gateway(const Vector2d& p_lpm) const {

@@ -55,7 +55,8 @@ class PlaceStay {
   [[nodiscard]] int gateway_left_through(double beyond_m) const;
   /// Whether the robot is far outside without having crossed any gateway.
   [[nodiscard]] bool is_far_outside(double beyond_m) const;
-  /// The gateway crossed inward last on a way, -1 where there is none.
+  /// The gateway through which a way leads back inside: the last one crossed, if it was crossed
+  /// inward; -1 otherwise.
   [[nodiscard]] int gateway_entered_by(const std::vector<StampedPose>& way) const;
   /// The gateway through which the stay was left; -1 while it lasts.
   [[nodiscard]] int departure() const { return departure_; }
