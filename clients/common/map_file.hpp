@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "clients/common/map_source.hpp"
+
+struct sqlite3;
+
+namespace cairn::clients {
+
+/// A map file (SQLite), read without a daemon and never written to. Works on a file that a daemon
+/// has open, on a read-only medium, and after a crash; every document is then the last one saved.
+class MapFile final : public MapSource {
+ public:
+  /// A row of the table of documents.
+  struct Document {
+    std::int64_t revision = 0;
+    std::int64_t size_bytes = 0;
+  };
+
+  /// Throws Failure(kBadData) for a file that is no cairn map, or of a format not known.
+  explicit MapFile(const std::filesystem::path& path);
+
+  [[nodiscard]] cairn_lcm::topology_t topology() override;
+  [[nodiscard]] cairn_lcm::hypotheses_t hypotheses() override;
+  [[nodiscard]] cairn_lcm::grid_map_t global_map() override;
+  [[nodiscard]] cairn_lcm::trajectory_t trajectory() override;
+
+  /// The table `meta`.
+  [[nodiscard]] const std::map<std::string, std::string>& meta() const { return meta_; }
+  /// Which documents there are, by `what` of snapshot_request_t.
+  [[nodiscard]] std::map<std::int32_t, Document> documents() const;
+  /// Number of rows of a table of the journal; -1 where there is no such table.
+  [[nodiscard]] std::int64_t row_count(const std::string& table) const;
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const;
+  };
+
+  void open(const std::string& uri);
+  void read_meta();
+  [[nodiscard]] std::vector<std::uint8_t> document_bytes(std::int32_t what) const;
+  template <typename Message>
+  [[nodiscard]] Message document(std::int32_t what) const;
+
+  std::filesystem::path path_;
+  std::unique_ptr<sqlite3, Close> database_;
+  std::map<std::string, std::string> meta_;
+};
+
+}  // namespace cairn::clients

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cairn_lcm/grid_map_t.hpp>
+#include <cairn_lcm/hypotheses_t.hpp>
+#include <cairn_lcm/topology_t.hpp>
+#include <cairn_lcm/trajectory_t.hpp>
+
+namespace cairn::clients {
+
+/// Where a command reads a map from: a running daemon, or a map file without one. The documents are
+/// the same ones either way, checked before they are decoded.
+///
+/// Every function throws Failure: kBadData for a document that is not there or not sound,
+/// kNoService when no daemon answers.
+class MapSource {
+ public:
+  MapSource() = default;
+  MapSource(const MapSource&) = delete;
+  MapSource& operator=(const MapSource&) = delete;
+  virtual ~MapSource() = default;
+
+  [[nodiscard]] virtual cairn_lcm::topology_t topology() = 0;
+  [[nodiscard]] virtual cairn_lcm::hypotheses_t hypotheses() = 0;
+  [[nodiscard]] virtual cairn_lcm::grid_map_t global_map() = 0;
+  [[nodiscard]] virtual cairn_lcm::trajectory_t trajectory() = 0;
+};
+
+}  // namespace cairn::clients

@@ -1,0 +1,169 @@
+#include "clients/common/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <numbers>
+#include <ostream>
+
+#include <unistd.h>
+
+#include "clients/common/failure.hpp"
+
+namespace cairn::clients {
+namespace {
+
+bool is_number(const std::string& cell) {
+  return !cell.empty() && cell.find_first_not_of("0123456789.+-%") == std::string::npos;
+}
+
+// Counts characters, not bytes, so that names with accents keep the columns lined up.
+std::size_t columns_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+  }));
+}
+
+}  // namespace
+
+std::string fixed(double value, int decimals) {
+  if (!std::isfinite(value)) {
+    return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
+  }
+  std::array<char, 352> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.*f", std::clamp(decimals, 0, 17), value);
+  std::string text = buffer.data();
+  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+  return is_zero && text.front() == '-' ? text.substr(1) : text;
+}
+
+std::string degrees(double angle_rad) {
+  return fixed(angle_rad * 180.0 / std::numbers::pi, 1);
+}
+
+std::string duration(double seconds) {
+  if (!std::isfinite(seconds) || std::abs(seconds) < 60.0) {
+    return fixed(seconds, 1) + " s";
+  }
+  const auto whole = static_cast<std::int64_t>(std::min(std::abs(seconds), 1e15));
+  const std::string sign = seconds < 0 ? "-" : "";
+  const auto two_digits = [](std::int64_t n) { return (n < 10 ? "0" : "") + std::to_string(n); };
+  if (whole < 3600) {
+    return sign + std::to_string(whole / 60) + " min " + two_digits(whole % 60) + " s";
+  }
+  return sign + std::to_string(whole / 3600) + " h " + two_digits(whole / 60 % 60) + " min";
+}
+
+std::string byte_size(std::int64_t bytes) {
+  if (bytes < 1000) {
+    return std::to_string(bytes) + " B";
+  }
+  const auto size = static_cast<double>(bytes);
+  return size < 1e6   ? fixed(size / 1e3, 1) + " kB"
+         : size < 1e9 ? fixed(size / 1e6, 1) + " MB"
+                      : fixed(size / 1e9, 1) + " GB";
+}
+
+std::string printable(const std::string& text) {
+  std::string result = text;
+  for (char& c : result) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7F) {
+      c = '?';
+    }
+  }
+  // The control characters U+0080 to U+009F, of which some terminals take orders too.
+  for (std::size_t i = 0; i + 1 < result.size(); ++i) {
+    if (static_cast<unsigned char>(result[i]) == 0xC2 &&
+        static_cast<unsigned char>(result[i + 1]) < 0xA0) {
+      result.replace(i, 2, "?");
+    }
+  }
+  return result;
+}
+
+std::string xml_escaped(const std::string& text) {
+  std::string result;
+  for (const char c : printable(text)) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+Table::Table(std::vector<std::string> headings) : rows_{std::move(headings)} {}
+
+void Table::add(std::vector<std::string> cells) {
+  cells.resize(rows_.front().size());
+  rows_.push_back(std::move(cells));
+}
+
+void Table::print(std::ostream& out) const {
+  const std::size_t columns = rows_.front().size();
+  std::vector<std::size_t> widths(columns, 0);
+  std::vector<bool> right(columns, rows_.size() > 1);
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    for (std::size_t c = 0; c < columns; ++c) {
+      widths[c] = std::max(widths[c], columns_of(rows_[r][c]));
+      right[c] = right[c] && (r == 0 || is_number(rows_[r][c]));
+    }
+  }
+  for (const std::vector<std::string>& row : rows_) {
+    std::string line;
+    for (std::size_t c = 0; c < columns; ++c) {
+      const std::string padding(widths[c] - columns_of(row[c]), ' ');
+      line += (right[c] ? padding + row[c] : row[c] + padding) + "  ";
+    }
+    out << line.substr(0, line.find_last_not_of(' ') + 1) << '\n';
+  }
+}
+
+void write_file(const std::filesystem::path& path, const std::string& content) {
+  const auto refuse = [&](const char* what) {
+    throw Failure(ExitCode::kCannotCreate, "cannot " + std::string(what) + " " + path.string());
+  };
+  const std::filesystem::path temporary = path.string() + ".tmp" + std::to_string(::getpid());
+  std::error_code error;
+  // A device or a pipe is written to as it is: nothing may be renamed over it.
+  const bool is_plain =
+      !std::filesystem::exists(path, error) || std::filesystem::is_regular_file(path, error);
+  std::ofstream file(is_plain ? temporary : path, std::ios::binary | std::ios::trunc);
+  if (!file) {
+    refuse("create");
+  }
+  file.write(content.data(), static_cast<std::streamsize>(content.size()));
+  file.close();
+  if (!file) {
+    if (is_plain) {
+      std::filesystem::remove(temporary, error);
+    }
+    refuse("write");
+  }
+  if (!is_plain) {
+    return;
+  }
+  std::filesystem::rename(temporary, path, error);
+  if (error) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    refuse("create");
+  }
+}
+
+}  // namespace cairn::clients
