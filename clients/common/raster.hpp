@@ -34,6 +34,7 @@ struct Raster {
 
 /// Writes the map for the map_server of ROS: an 8-bit PGM (254 free, 0 occupied, 205 unknown,
 /// shades of trinary thresholds) and beside it the YAML file, same name, extension .yaml.
-void write_ros_map(const Raster& raster, const std::filesystem::path& pgm);
+/// @return path of the YAML file
+std::filesystem::path write_ros_map(const Raster& raster, const std::filesystem::path& pgm);
 
 }  // namespace cairn::clients

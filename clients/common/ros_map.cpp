@@ -26,7 +26,7 @@ char shade_of(std::uint8_t cell) {
 
 }  // namespace
 
-void write_ros_map(const Raster& raster, const std::filesystem::path& pgm) {
+std::filesystem::path write_ros_map(const Raster& raster, const std::filesystem::path& pgm) {
   // One unknown cell stands for a map without any: readers refuse a picture without pixels.
   const int width = raster.width > 0 ? raster.width : 1;
   const int height = raster.height > 0 ? raster.height : 1;
@@ -49,6 +49,7 @@ void write_ros_map(const Raster& raster, const std::filesystem::path& pgm) {
        << "free_thresh: 0.196\n";
   std::filesystem::path yaml_path = pgm;
   write_file(yaml_path.replace_extension(".yaml"), yaml.str());
+  return yaml_path;
 }
 
 }  // namespace cairn::clients

@@ -26,6 +26,32 @@ std::size_t columns_of(const std::string& text) {
   }));
 }
 
+// Bytes of the character at `begin` if it is sound UTF-8, no control character, and allowed in XML;
+// otherwise 0.
+std::size_t printable_size(const std::string& text, std::size_t begin) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned first = byte(begin);
+  if (first < 0x80) {
+    return first >= 0x20 && first != 0x7F ? 1 : 0;
+  }
+  const std::size_t size = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  if (first < 0xC2 || first > 0xF4 || begin + size > text.size()) {
+    return 0;
+  }
+  unsigned code = first & (0xFFU >> (size + 1));
+  for (std::size_t i = begin + 1; i < begin + size; ++i) {
+    if ((byte(i) & 0xC0U) != 0x80U) {
+      return 0;
+    }
+    code = code << 6U | (byte(i) & 0x3FU);
+  }
+  const bool is_too_long = code < (size == 4 ? 0x10000U : size == 3 ? 0x800U : 0x80U);
+  const bool is_surrogate = code >= 0xD800 && code <= 0xDFFF;
+  const bool is_control = code < 0xA0;  // Some terminals take orders by U+0080 to U+009F too.
+  const bool is_character = code <= 0x10FFFF && (code & 0xFFFEU) != 0xFFFE;
+  return is_too_long || is_surrogate || is_control || !is_character ? 0 : size;
+}
+
 }  // namespace
 
 std::string fixed(double value, int decimals) {
@@ -67,19 +93,11 @@ std::string byte_size(std::int64_t bytes) {
 }
 
 std::string printable(const std::string& text) {
-  std::string result = text;
-  for (char& c : result) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7F) {
-      c = '?';
-    }
-  }
-  // The control characters U+0080 to U+009F, of which some terminals take orders too.
-  for (std::size_t i = 0; i + 1 < result.size(); ++i) {
-    if (static_cast<unsigned char>(result[i]) == 0xC2 &&
-        static_cast<unsigned char>(result[i + 1]) < 0xA0) {
-      result.replace(i, 2, "?");
-    }
+  std::string result;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t size = printable_size(text, i);
+    result += size == 0 ? "?" : text.substr(i, size);
+    i += std::max<std::size_t>(size, 1);
   }
   return result;
 }

@@ -20,10 +20,11 @@ namespace cairn::clients {
 /// "812 B", "14.2 kB", "3.1 MB".
 [[nodiscard]] std::string byte_size(std::int64_t bytes);
 
-/// Text from the bus or a file, safe for a terminal: control characters are replaced by '?'.
+/// Text from the bus or a file, safe for a terminal: control characters and what is no UTF-8 are
+/// replaced by '?'.
 [[nodiscard]] std::string printable(const std::string& text);
 
-/// Text for XML and HTML content or attributes, without the characters XML does not allow.
+/// The same for XML and HTML, content or attributes.
 [[nodiscard]] std::string xml_escaped(const std::string& text);
 
 /// Columns lined up below their headings, two spaces apart. Numbers stand to the right.

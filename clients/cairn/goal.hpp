@@ -1,0 +1,14 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <cairn_lcm/plan_request_t.hpp>
+
+namespace cairn::clients {
+
+/// Where to go, as typed: a number is a place; `X,Y` or `X,Y,THETA_DEG` a pose in the global frame;
+/// everything else the name of a place. Nothing for an empty text, or numbers that are not finite.
+[[nodiscard]] std::optional<cairn_lcm::plan_request_t> parse_goal(const std::string& text);
+
+}  // namespace cairn::clients

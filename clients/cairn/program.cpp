@@ -1,0 +1,85 @@
+#include "clients/cairn/program.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+
+#include "clients/cairn/commands.hpp"
+#include "clients/common/failure.hpp"
+#include "clients/common/map_file.hpp"
+
+namespace cairn::clients {
+namespace {
+
+constexpr char kExitStatus[] =
+    "Exit status: 0 done; 64 wrong command line; 65 bad data, or no such place; 69 no daemon, or "
+    "it "
+    "could not do it; 73 cannot write; 78 the bus cannot be opened.";
+
+int status_of(ExitCode code) {
+  return static_cast<int>(code);
+}
+
+void add_commands(CLI::App& app, const Streams& streams) {
+  add_status_command(app, streams);
+  add_watch_command(app, streams);
+  add_places_command(app, streams);
+  add_hypotheses_command(app, streams);
+  add_map_command(app, streams);
+  add_path_command(app, streams);
+  add_export_command(app, streams);
+  add_log_command(app, streams);
+  app.require_subcommand(1);
+}
+
+}  // namespace
+
+void add_link_options(CLI::App& command, LinkOptions* link) {
+  command.add_option("--lcm-url", link->lcm_url,
+                     "Bus of the daemon [LCM_DEFAULT_URL, else multicast on this machine]");
+  command.add_option("--timeout", link->timeout_s, "Seconds to wait for a daemon")
+      ->capture_default_str()
+      ->check(CLI::Range(0.05, 3600.0));
+}
+
+void add_map_file(CLI::App& command, SourceOptions* options) {
+  command.add_option("mapfile", options->map_file, "Read this map file instead of asking a daemon");
+}
+
+void add_json_flag(CLI::App& command, bool* as_json) {
+  command.add_flag("--json", *as_json, "Print JSON");
+}
+
+std::unique_ptr<MapSource> open_source(const SourceOptions& options) {
+  if (!options.map_file.empty()) {
+    return std::make_unique<MapFile>(options.map_file);
+  }
+  return std::make_unique<DaemonLink>(options.link);
+}
+
+int run_cairn(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
+  CLI::App app{"Looks at maps of cairnd, running or in a file, and asks for ways.", "cairn"};
+  app.set_version_flag("--version", "cairn " CAIRN_VERSION);
+  app.footer(kExitStatus);
+  try {
+    add_commands(app, {out, err});
+    std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
+    app.parse(reversed);
+    out.flush();
+    return status_of(out ? ExitCode::kOk : ExitCode::kCannotCreate);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error, out, err) == 0 ? 0 : status_of(ExitCode::kUsage);
+  } catch (const Failure& failure) {
+    out.flush();
+    err << "cairn: " << failure.what() << '\n';
+    return status_of(failure.code());
+  } catch (const std::bad_alloc&) {
+    err << "cairn: not enough memory for this map\n";
+    return status_of(ExitCode::kBadData);
+  } catch (const std::exception& error) {
+    err << "cairn: " << error.what() << '\n';
+    return status_of(ExitCode::kBadData);
+  }
+}
+
+}  // namespace cairn::clients

@@ -1,0 +1,249 @@
+#include "clients/common/daemon_link.hpp"
+
+#include <limits>
+#include <optional>
+#include <random>
+
+#include <cairn_lcm/result_t.hpp>
+#include <cairn_lcm/snapshot_chunk_t.hpp>
+#include <cairn_lcm/snapshot_request_t.hpp>
+
+#include "clients/common/progress.hpp"
+#include "clients/common/subscribe.hpp"
+#include "clients/common/text.hpp"
+#include "wire/document.hpp"
+#include "wire/replication_client.hpp"
+#include "wire/request.hpp"
+
+namespace cairn::clients {
+namespace {
+
+using Request = cairn_lcm::snapshot_request_t;
+using cairn_lcm::result_t;
+
+constexpr std::chrono::milliseconds kTick{20};
+// A daemon that lives may take longer to make a large document than to say that it lives.
+constexpr double kPatience = 4.0;
+
+}  // namespace
+
+/// What has come in; the handlers write here.
+struct DaemonLink::Inbox {
+  std::int64_t heard_us = 0;  ///< Last sign of a daemon.
+  std::optional<cairn_lcm::status_t> status;
+  std::int64_t client_id = 0;  ///< Of the request under way: answers to others are not for us.
+  std::int32_t request_id = 0;
+  std::optional<result_t> result;
+  std::optional<cairn_lcm::plan_t> plan;
+  wire::DocumentFetch* fetch = nullptr;
+
+  void begin(std::int64_t client) {
+    client_id = client;
+    result.reset();
+    plan.reset();
+    heard_us = steady_us();
+  }
+};
+
+std::int64_t random_client_id() {
+  std::random_device entropy;
+  return std::uniform_int_distribution<std::int64_t>(
+      1, std::numeric_limits<std::int64_t>::max())(entropy);
+}
+
+std::int64_t steady_us() {
+  return std::chrono::duration_cast<std::chrono::microseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+std::int64_t now_utime() {
+  return std::chrono::duration_cast<std::chrono::microseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+DaemonLink::DaemonLink(const LinkOptions& options)
+    : options_(options), inbox_(std::make_unique<Inbox>()) {
+  wire::Expected<std::unique_ptr<wire::Bus>> bus = wire::Bus::open(options.lcm_url);
+  if (!bus) {
+    throw Failure(ExitCode::kConfiguration, bus.error());
+  }
+  own_bus_ = *std::move(bus);
+  bus_ = own_bus_.get();
+  subscribe();
+}
+
+DaemonLink::DaemonLink(const LinkOptions& options, wire::Bus& bus, std::function<void()> between)
+    : options_(options),
+      bus_(&bus),
+      between_(std::move(between)),
+      inbox_(std::make_unique<Inbox>()) {
+  subscribe();
+}
+
+DaemonLink::~DaemonLink() = default;
+
+void DaemonLink::subscribe() {
+  Inbox* inbox = inbox_.get();
+  clients::subscribe<cairn_lcm::status_t>(*bus_, "CAIRN_STATUS",
+                                          [inbox](const cairn_lcm::status_t& status) {
+                                            inbox->heard_us = steady_us();
+                                            inbox->status = status;
+                                          });
+  clients::subscribe<result_t>(*bus_, "CAIRN_RESULT", [inbox](const result_t& result) {
+    if (result.header.client_id == inbox->client_id) {
+      inbox->heard_us = steady_us();
+      inbox->result = result;
+    }
+  });
+  clients::subscribe<cairn_lcm::plan_t>(*bus_, "CAIRN_PLAN",
+                                        [inbox](const cairn_lcm::plan_t& plan) {
+                                          if (plan.result.header.client_id == inbox->client_id) {
+                                            inbox->heard_us = steady_us();
+                                            inbox->plan = plan;
+                                          }
+                                        });
+  clients::subscribe<cairn_lcm::snapshot_chunk_t>(
+      *bus_, "CAIRN_SNAPSHOT", [inbox](const cairn_lcm::snapshot_chunk_t& chunk) {
+        if (inbox->fetch != nullptr) {
+          inbox->heard_us = steady_us();
+          inbox->fetch->on_chunk(steady_us(), chunk);
+        }
+      });
+}
+
+void DaemonLink::handle(std::chrono::milliseconds at_most) {
+  if (between_) {
+    between_();
+  }
+  if (bus_->handle(static_cast<int>(at_most.count())) < 0) {
+    throw Failure(ExitCode::kNoService, "the connection to the bus is gone: " + bus_->url());
+  }
+}
+
+Failure DaemonLink::no_daemon() const {
+  return {ExitCode::kNoService, "no daemon answered on " + bus_->url() + " within " +
+                                    fixed(options_.timeout_s, 1) +
+                                    " s: start cairnd, or give its bus with --lcm-url"};
+}
+
+cairn_lcm::status_t DaemonLink::status() {
+  inbox_->status.reset();
+  const std::int64_t begin_us = steady_us();
+  while (!inbox_->status) {
+    if (static_cast<double>(steady_us() - begin_us) > options_.timeout_s * 1e6) {
+      throw no_daemon();
+    }
+    handle(kTick);
+  }
+  return *inbox_->status;
+}
+
+std::vector<std::uint8_t> DaemonLink::fetch(std::int32_t what, const char* name) {
+  wire::ReplicationRequests requests;
+  // A new client for each document, since each counts its requests from the beginning.
+  requests.client_id = random_client_id();
+  requests.send_snapshot_request = [this](const Request& request) {
+    bus_->publish("CAIRN_REQUEST_SNAPSHOT", request);
+  };
+  wire::DocumentFetch fetch(what, 0, requests);
+  inbox_->begin(requests.client_id);
+  inbox_->fetch = &fetch;
+  const auto leave = [this](wire::DocumentFetch*) { inbox_->fetch = nullptr; };
+  const std::unique_ptr<wire::DocumentFetch, decltype(leave)> guard(&fetch, leave);
+
+  Progress progress(std::string("receiving the ") + name);
+  std::int64_t advanced_us = steady_us();
+  double share = 0.0;
+  while (fetch.tick(steady_us(), now_utime()) == wire::DocumentFetch::State::kAsking) {
+    handle(kTick);
+    if (fetch.progress() != share) {
+      share = fetch.progress();
+      advanced_us = steady_us();
+      progress.show(static_cast<std::int64_t>(share * 1000.0), 1000);
+    }
+    if (inbox_->result && inbox_->result->code >= result_t::BAD_REQUEST &&
+        inbox_->result->code != result_t::BUSY) {
+      throw Failure(ExitCode::kBadData, std::string("the daemon has no ") + name + ": " +
+                                            printable(inbox_->result->reason));
+    }
+    const std::int64_t now_us = steady_us();
+    if (static_cast<double>(now_us - inbox_->heard_us) > options_.timeout_s * 1e6) {
+      throw no_daemon();
+    }
+    if (static_cast<double>(now_us - advanced_us) > kPatience * options_.timeout_s * 1e6) {
+      break;
+    }
+  }
+  if (fetch.state() != wire::DocumentFetch::State::kDone) {
+    throw Failure(ExitCode::kNoService,
+                  std::string("the daemon lives, but its ") + name + " did not come through");
+  }
+  return fetch.document();
+}
+
+template <typename Message>
+Message DaemonLink::document(std::int32_t what, const char* name) {
+  wire::Expected<Message> message = wire::from_document<Message>(fetch(what, name));
+  if (!message) {
+    throw Failure(ExitCode::kBadData, std::string("the daemon's ") + name + ": " + message.error());
+  }
+  return *std::move(message);
+}
+
+cairn_lcm::topology_t DaemonLink::topology() {
+  return document<cairn_lcm::topology_t>(Request::TOPOLOGY, "topological map");
+}
+
+cairn_lcm::hypotheses_t DaemonLink::hypotheses() {
+  return document<cairn_lcm::hypotheses_t>(Request::HYPOTHESES, "list of hypotheses");
+}
+
+cairn_lcm::grid_map_t DaemonLink::global_map() {
+  return document<cairn_lcm::grid_map_t>(Request::GLOBAL_MAP, "global map");
+}
+
+cairn_lcm::trajectory_t DaemonLink::trajectory() {
+  return document<cairn_lcm::trajectory_t>(Request::TRAJECTORY, "trajectory");
+}
+
+cairn_lcm::plan_t DaemonLink::plan(cairn_lcm::plan_request_t request) {
+  request.header.client_id = random_client_id();
+  request.header.request_id = 1;
+  inbox_->begin(request.header.client_id);
+  wire::RequestRetry retry;
+  while (true) {
+    const std::int64_t now_us = steady_us();
+    const wire::RequestRetry::Step step = retry.step(now_us);
+    if (step == wire::RequestRetry::Step::kSend) {
+      request.header.utime = now_utime();
+      bus_->publish("CAIRN_REQUEST_PLAN", request);
+    }
+    if (step == wire::RequestRetry::Step::kGiveUp ||
+        static_cast<double>(now_us - inbox_->heard_us) > options_.timeout_s * 1e6) {
+      throw no_daemon();
+    }
+    handle(kTick);
+    if (inbox_->result && !inbox_->plan) {
+      inbox_->plan.emplace();
+      inbox_->plan->result = *inbox_->result;
+    }
+    if (!inbox_->plan) {
+      continue;
+    }
+    const result_t& result = inbox_->plan->result;
+    if (result.code != result_t::ACCEPTED && result.code != result_t::BUSY) {
+      return *inbox_->plan;
+    }
+    if (result.code == result_t::ACCEPTED) {
+      retry.accepted(steady_us());
+    } else {
+      retry.busy(steady_us(), std::int64_t{result.retry_after_ms} * 1'000);
+    }
+    inbox_->plan.reset();
+    inbox_->result.reset();
+  }
+}
+
+}  // namespace cairn::clients

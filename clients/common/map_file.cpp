@@ -1,0 +1,190 @@
+#include "clients/common/map_file.hpp"
+
+#include <array>
+#include <fstream>
+
+#include <cairn_lcm/snapshot_request_t.hpp>
+#include <sqlite3.h>
+
+#include "clients/common/failure.hpp"
+#include "clients/common/text.hpp"
+#include "wire/document.hpp"
+#include "wire/signatures.hpp"
+
+namespace cairn::clients {
+namespace {
+
+constexpr char kFormatVersion[] = "1";
+
+struct Finalize {
+  void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+};
+using Statement = std::unique_ptr<sqlite3_stmt, Finalize>;
+
+Failure unreadable(const std::filesystem::path& path, const std::string& reason) {
+  return {ExitCode::kBadData, path.string() + ": " + reason};
+}
+
+std::string column_text(sqlite3_stmt* row, int column) {
+  const unsigned char* text = sqlite3_column_text(row, column);
+  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(row, column));
+  return text == nullptr ? std::string() : std::string(text, text + size);
+}
+
+// SQLite's header: the bytes 18 and 19 are 2 for a database with a write-ahead log.
+bool has_write_ahead_log(const std::filesystem::path& path) {
+  std::array<char, 20> header{};
+  std::ifstream(path, std::ios::binary).read(header.data(), header.size());
+  return header[18] == 2;
+}
+
+// Percent-encodes what has a meaning in a URI of SQLite.
+std::string uri_of(const std::filesystem::path& path, const std::string& query) {
+  std::string uri = "file:";
+  for (const char c : std::filesystem::absolute(path).string()) {
+    uri += c == '%' ? "%25" : c == '?' ? "%3f" : c == '#' ? "%23" : std::string(1, c);
+  }
+  return uri + "?" + query;
+}
+
+const char* name_of(std::int32_t what) {
+  using Request = cairn_lcm::snapshot_request_t;
+  return what == Request::GLOBAL_MAP   ? "global map"
+         : what == Request::TOPOLOGY   ? "topological map"
+         : what == Request::HYPOTHESES ? "list of hypotheses"
+         : what == Request::TRAJECTORY ? "trajectory"
+                                       : "document of this kind";
+}
+
+Statement prepare(sqlite3* database, const std::filesystem::path& path, const std::string& sql) {
+  sqlite3_stmt* statement = nullptr;
+  if (sqlite3_prepare_v2(database, sql.c_str(), -1, &statement, nullptr) != SQLITE_OK) {
+    throw unreadable(path, std::string("is no cairn map (") + sqlite3_errmsg(database) + ")");
+  }
+  return Statement(statement);
+}
+
+bool next_row(sqlite3* database, const std::filesystem::path& path, sqlite3_stmt* statement) {
+  const int result = sqlite3_step(statement);
+  if (result != SQLITE_ROW && result != SQLITE_DONE) {
+    throw unreadable(path, std::string("cannot be read: ") + sqlite3_errmsg(database));
+  }
+  return result == SQLITE_ROW;
+}
+
+}  // namespace
+
+void MapFile::Close::operator()(sqlite3* database) const {
+  sqlite3_close(database);
+}
+
+MapFile::MapFile(const std::filesystem::path& path) : path_(path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    throw unreadable(path,
+                     std::filesystem::exists(path, error) ? "is no file" : "there is no such file");
+  }
+  if (!std::ifstream(path, std::ios::binary)) {
+    throw unreadable(path, "cannot be opened for reading");
+  }
+  // Without a log beside it nobody has the file open. Immutable then, or SQLite would create files
+  // of its own beside the map, and refuse on a medium that does not let it.
+  const bool is_at_rest =
+      has_write_ahead_log(path) && !std::filesystem::exists(path.string() + "-wal", error);
+  open(uri_of(path, is_at_rest ? "immutable=1" : "mode=ro"));
+  read_meta();
+}
+
+void MapFile::open(const std::string& uri) {
+  sqlite3* database = nullptr;
+  const int result =
+      sqlite3_open_v2(uri.c_str(), &database, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
+  database_.reset(database);
+  if (result != SQLITE_OK) {
+    throw unreadable(path_, std::string("cannot be opened: ") + sqlite3_errstr(result));
+  }
+  sqlite3_busy_timeout(database, 2'000);
+  // The file may come from anywhere: its schema must not run anything.
+  sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+}
+
+void MapFile::read_meta() {
+  const Statement rows = prepare(database_.get(), path_, "SELECT key, value FROM meta");
+  while (next_row(database_.get(), path_, rows.get())) {
+    meta_[column_text(rows.get(), 0)] = column_text(rows.get(), 1);
+  }
+  if (meta_["application"] != "cairn") {
+    throw unreadable(path_, "is no cairn map");
+  }
+  if (meta_["format_version"] != kFormatVersion) {
+    throw unreadable(path_, "is a cairn map of format " + printable(meta_["format_version"]) +
+                                "; this program reads format " + kFormatVersion);
+  }
+}
+
+std::map<std::int32_t, MapFile::Document> MapFile::documents() const {
+  const Statement rows =
+      prepare(database_.get(), path_, "SELECT what, revision, length(bytes) FROM document");
+  std::map<std::int32_t, Document> documents;
+  while (next_row(database_.get(), path_, rows.get())) {
+    documents[sqlite3_column_int(rows.get(), 0)] = {sqlite3_column_int64(rows.get(), 1),
+                                                    sqlite3_column_int64(rows.get(), 2)};
+  }
+  return documents;
+}
+
+std::int64_t MapFile::row_count(const std::string& table) const {
+  const Statement found = prepare(database_.get(), path_,
+                                  "SELECT 1 FROM sqlite_schema WHERE type = 'table' AND name = ?");
+  sqlite3_bind_text(found.get(), 1, table.c_str(), -1, SQLITE_TRANSIENT);
+  if (!next_row(database_.get(), path_, found.get())) {
+    return -1;
+  }
+  std::string quoted = "\"";
+  for (const char c : table) {
+    quoted += c == '"' ? "\"\"" : std::string(1, c);
+  }
+  const Statement count = prepare(database_.get(), path_, "SELECT count(*) FROM " + quoted + "\"");
+  return next_row(database_.get(), path_, count.get()) ? sqlite3_column_int64(count.get(), 0) : 0;
+}
+
+std::vector<std::uint8_t> MapFile::document_bytes(std::int32_t what) const {
+  const Statement row =
+      prepare(database_.get(), path_, "SELECT bytes FROM document WHERE what = ?");
+  sqlite3_bind_int(row.get(), 1, what);
+  if (!next_row(database_.get(), path_, row.get())) {
+    throw unreadable(path_, std::string("holds no ") + name_of(what));
+  }
+  const auto* bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(row.get(), 0));
+  const int size = sqlite3_column_bytes(row.get(), 0);
+  return bytes == nullptr ? std::vector<std::uint8_t>()
+                          : std::vector<std::uint8_t>(bytes, bytes + size);
+}
+
+template <typename Message>
+Message MapFile::document(std::int32_t what) const {
+  wire::Expected<Message> message = wire::from_document<Message>(document_bytes(what));
+  if (!message) {
+    throw unreadable(path_, std::string(name_of(what)) + ": " + message.error());
+  }
+  return *std::move(message);
+}
+
+cairn_lcm::topology_t MapFile::topology() {
+  return document<cairn_lcm::topology_t>(cairn_lcm::snapshot_request_t::TOPOLOGY);
+}
+
+cairn_lcm::hypotheses_t MapFile::hypotheses() {
+  return document<cairn_lcm::hypotheses_t>(cairn_lcm::snapshot_request_t::HYPOTHESES);
+}
+
+cairn_lcm::grid_map_t MapFile::global_map() {
+  return document<cairn_lcm::grid_map_t>(cairn_lcm::snapshot_request_t::GLOBAL_MAP);
+}
+
+cairn_lcm::trajectory_t MapFile::trajectory() {
+  return document<cairn_lcm::trajectory_t>(cairn_lcm::snapshot_request_t::TRAJECTORY);
+}
+
+}  // namespace cairn::clients
