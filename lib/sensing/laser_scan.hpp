@@ -16,12 +16,12 @@ namespace cairn {
 ///  - +infinity: nothing within `max_range_m`, the beam is free up to there;
 ///  - NaN: no statement (invalid, blocked, too close); the beam must be ignored.
 struct LaserScan {
-  TimePoint time;                    ///< Of the first beam.
-  std::vector<float> bearings_rad;   ///< Laser frame: x ahead, y left, counterclockwise.
-  std::vector<float> ranges_m;       ///< As many as bearings.
-  double max_range_m = 0.0;          ///< > 0
-  double sweep_duration_s = 0.0;     ///< From first to last beam; 0 where it is not known.
-  Pose2 T_robot_laser;               ///< Mounting pose.
+  TimePoint time;                   ///< Of the first beam.
+  std::vector<float> bearings_rad;  ///< Laser frame: x ahead, y left, counterclockwise.
+  std::vector<float> ranges_m;      ///< As many as bearings.
+  double max_range_m = 0.0;         ///< > 0
+  double sweep_duration_s = 0.0;    ///< From first to last beam; 0 where it is not known.
+  Pose2 T_robot_laser;              ///< Mounting pose.
 };
 
 /// What every scan fulfils behind the inlet: 2 to 10,000 beams, as many bearings as ranges, finite

@@ -1,0 +1,174 @@
+#include "lpm/correlative_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/check.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr double kFullScore = 255.0;
+
+/// Lowest magnitude in [low, high].
+double least_magnitude(double low, double high) {
+  return low > 0.0 ? low : (high < 0.0 ? -high : 0.0);
+}
+
+}  // namespace
+
+void CorrelativeSearch::prepare(const DistanceField& walls, double hit_sigma_m) {
+  geometry_ = walls.geometry();
+  std::array<std::uint8_t, DistanceField::kFar + 1> likelihood{};
+  const double sigma_cells = hit_sigma_m / geometry_.cell_m;
+  for (std::size_t squared = 0; squared < DistanceField::kFar; ++squared) {
+    const double exponent = -0.5 * static_cast<double>(squared) / (sigma_cells * sigma_cells);
+    likelihood[squared] = static_cast<std::uint8_t>(std::lround(kFullScore * std::exp(exponent)));
+  }
+  pyramid_.resize(kLevels);
+  pyramid_[0].resize(geometry_.cell_count());
+  std::transform(walls.squared().begin(), walls.squared().end(), pyramid_[0].begin(),
+                 [&](std::uint8_t squared) { return likelihood[squared]; });
+  const int width = geometry_.width;
+  const int height = geometry_.height;
+  for (int level = 1; level < kLevels; ++level) {
+    const int half = 1 << (level - 1);
+    const std::vector<std::uint8_t>& below = pyramid_[static_cast<std::size_t>(level - 1)];
+    std::vector<std::uint8_t>& here = pyramid_[static_cast<std::size_t>(level)];
+    here.resize(below.size());
+    for (int y = 0; y < height; ++y) {
+      const std::uint8_t* const lower = below.data() + geometry_.index_of({0, y});
+      const bool has_upper = y + half < height;
+      const std::uint8_t* const upper = has_upper ? lower + half * width : lower;
+      std::uint8_t* const row = here.data() + geometry_.index_of({0, y});
+      for (int x = 0; x + half < width; ++x) {
+        row[x] = std::max(std::max(lower[x], lower[x + half]), std::max(upper[x], upper[x + half]));
+      }
+      for (int x = std::max(0, width - half); x < width; ++x) {
+        row[x] = std::max(lower[x], upper[x]);
+      }
+    }
+  }
+}
+
+SearchResult CorrelativeSearch::find(const std::vector<Vector2d>& p_body,
+                                     const SearchWindow& window) {
+  CAIRN_CHECK(!pyramid_.empty());
+  if (p_body.empty()) {
+    return {window.center, 0.0};
+  }
+  place_points(p_body, window);
+  open_.clear();
+  best_ = {};
+  best_.bound = -1e300;
+  push({0, 0, 0, 0, 0.0}, window);  // the centre is the one to beat
+  const Candidate center = open_.back();
+  open_.clear();
+  best_ = center;
+  const int block = 1 << (kLevels - 1);
+  for (int angle = -angle_count_; angle <= angle_count_; ++angle) {
+    for (int y = -range_cells_; y <= range_cells_; y += block) {
+      for (int x = -range_cells_; x <= range_cells_; x += block) {
+        push({angle, x, y, kLevels - 1, 0.0}, window);
+      }
+    }
+  }
+  // The best last, so that it is taken first; equal ones in a fixed order.
+  std::stable_sort(open_.begin(), open_.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.bound < b.bound; });
+  while (!open_.empty()) {
+    const Candidate next = open_.back();
+    open_.pop_back();
+    branch(next, window);
+  }
+  SearchResult result;
+  result.pose = Pose2(window.center.x() + best_.x * geometry_.cell_m,
+                      window.center.y() + best_.y * geometry_.cell_m,
+                      window.center.theta() + best_.angle * angle_step_rad_);
+  result.score = likelihood_sum(best_) / (kFullScore * static_cast<double>(point_count_));
+  return result;
+}
+
+void CorrelativeSearch::place_points(const std::vector<Vector2d>& p_body,
+                                     const SearchWindow& window) {
+  double farthest_m = 1.0;
+  for (const Vector2d& p : p_body) {
+    farthest_m = std::max(farthest_m, p.norm());
+  }
+  constexpr int kMaxAngles = 2'000;
+  const int wanted = static_cast<int>(std::ceil(window.turn_rad * farthest_m / geometry_.cell_m));
+  angle_count_ = std::clamp(wanted, 0, kMaxAngles);
+  angle_step_rad_ = angle_count_ > 0 ? window.turn_rad / angle_count_ : 0.0;
+  range_cells_ = static_cast<int>(std::ceil(window.range_m / geometry_.cell_m));
+  point_count_ = p_body.size();
+  points_.clear();
+  for (int angle = -angle_count_; angle <= angle_count_; ++angle) {
+    const Pose2 pose(window.center.translation(), window.center.theta() + angle * angle_step_rad_);
+    const double c = std::cos(pose.theta());
+    const double s = std::sin(pose.theta());
+    for (const Vector2d& p : p_body) {
+      points_.push_back(
+          geometry_.cell_at({pose.x() + c * p.x() - s * p.y(), pose.y() + s * p.x() + c * p.y()}));
+    }
+  }
+}
+
+double CorrelativeSearch::likelihood_sum(const Candidate& block) const {
+  const std::vector<std::uint8_t>& level = pyramid_[static_cast<std::size_t>(block.level)];
+  const auto first = static_cast<std::size_t>(block.angle + angle_count_) * point_count_;
+  const int size = 1 << block.level;
+  std::int64_t sum = 0;
+  for (std::size_t i = first; i < first + point_count_; ++i) {
+    int x = points_[i].x + block.x;
+    int y = points_[i].y + block.y;
+    if (x <= -size || y <= -size || x >= geometry_.width || y >= geometry_.height) {
+      continue;
+    }
+    // A block that begins left of or below the grid is bounded by the one at its border.
+    x = std::max(x, 0);
+    y = std::max(y, 0);
+    sum += level[geometry_.index_of({x, y})];
+  }
+  return static_cast<double>(sum);
+}
+
+double CorrelativeSearch::bound_of(const Candidate& block, const SearchWindow& window) const {
+  const int last = (1 << block.level) - 1;
+  const double dx = least_magnitude(block.x, block.x + last) * geometry_.cell_m / window.sigma_m;
+  const double dy = least_magnitude(block.y, block.y + last) * geometry_.cell_m / window.sigma_m;
+  const double turn = block.angle * angle_step_rad_ / window.sigma_rad;
+  // A point on a wall is worth 2, as one of two sigmas off would cost in squares.
+  const double worth = 2.0 * window.independent_share / kFullScore;
+  return worth * likelihood_sum(block) - 0.5 * (dx * dx + dy * dy + turn * turn);
+}
+
+void CorrelativeSearch::push(Candidate block, const SearchWindow& window) {
+  if (block.x > range_cells_ || block.y > range_cells_) {
+    return;
+  }
+  block.bound = bound_of(block, window);
+  if (block.bound > best_.bound) {
+    open_.push_back(block);
+  }
+}
+
+void CorrelativeSearch::branch(const Candidate& block, const SearchWindow& window) {
+  if (block.bound <= best_.bound) {
+    return;
+  }
+  if (block.level == 0) {
+    best_ = block;
+    return;
+  }
+  const std::size_t first = open_.size();
+  const int half = 1 << (block.level - 1);
+  for (const int dy : {0, half}) {
+    for (const int dx : {0, half}) {
+      push({block.angle, block.x + dx, block.y + dy, block.level - 1, 0.0}, window);
+    }
+  }
+  std::stable_sort(open_.begin() + static_cast<std::ptrdiff_t>(first), open_.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.bound < b.bound; });
+}
+
+}  // namespace cairn

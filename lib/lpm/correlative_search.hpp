@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lpm/distance_field.hpp"
+
+namespace cairn {
+
+/// The box of poses that is searched, and how much is thought of the poses in it beforehand.
+struct SearchWindow {
+  Pose2 center;                    ///< T_frame_body
+  double range_m = 0.5;            ///< Half the side, >= 0
+  double turn_rad = 0.3;           ///< Half the angle, >= 0
+  double sigma_m = 1e3;            ///< Prior belief around the centre; large: none.
+  double sigma_rad = 1e3;          ///< Prior belief around the centre; large: none.
+  double independent_share = 0.1;  ///< Share of the points that count against the prior. (0, 1]
+};
+
+/// The best pose of a window on a raster of cells and angles.
+struct SearchResult {
+  Pose2 pose;
+  double score = 0.0;  ///< Mean likelihood of the points on the raster, [0, 1].
+};
+
+/// Multi-resolution correlative search: exact over its window, raster of one cell and of the angle
+/// that moves the farthest point by one cell.
+///
+/// Source: Olson, "Real-time correlative scan matching", ICRA 2009; bounds by max-pyramids and
+/// branch and bound as in Hess et al., "Real-time loop closure in 2D lidar SLAM", ICRA 2016,
+/// Sec. V-B.
+class CorrelativeSearch {
+ public:
+  /// Takes the walls to search on, as they are now.
+  /// @param hit_sigma_m spread of a point around a wall, > 0
+  void prepare(const DistanceField& walls, double hit_sigma_m);
+
+  /// @pre prepare() has been called
+  [[nodiscard]] SearchResult find(const std::vector<Vector2d>& p_body, const SearchWindow& window);
+
+ private:
+  struct Candidate {
+    std::int32_t angle = 0;
+    std::int32_t x = 0;  // lowest offset of the block, in cells
+    std::int32_t y = 0;
+    std::int32_t level = 0;  // the block is 2^level offsets wide
+    double bound = 0.0;
+  };
+
+  void place_points(const std::vector<Vector2d>& p_body, const SearchWindow& window);
+  [[nodiscard]] double bound_of(const Candidate& block, const SearchWindow& window) const;
+  [[nodiscard]] double likelihood_sum(const Candidate& block) const;
+  void branch(const Candidate& block, const SearchWindow& window);
+  void push(Candidate block, const SearchWindow& window);
+
+  static constexpr int kLevels = 5;
+  GridGeometry geometry_;
+  std::vector<std::vector<std::uint8_t>> pyramid_;  // [level]: maximum over 2^level x 2^level cells
+  int angle_count_ = 0;                             // on either side of the centre
+  double angle_step_rad_ = 0.0;
+  int range_cells_ = 0;
+  std::size_t point_count_ = 0;
+  std::vector<Cell> points_;  // of all angles, one angle after the other
+  std::vector<Candidate> open_;
+  Candidate best_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,239 @@
+#include "lpm/local_mapper.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "base/check.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr double kLeastSigma_m = 1e-4;  // of a pose within the map it was matched to
+constexpr double kLeastSigma_rad = 1e-4;
+constexpr double kStillSigma_m = 1e-5;  // of a motion, per scan: keeps it positive definite
+constexpr double kStillSigma_rad = 1e-5;
+constexpr double kMatchSigma_m = 0.005;  // no match is better than this
+constexpr double kMatchSigma_rad = 0.001;
+constexpr double kBlindSigma_m = 1.0;  // of a match in a direction it says nothing about
+constexpr double kBlindSigma_rad = 0.5;
+constexpr double kDegenerateSigma_m = 0.10;
+constexpr double kDegenerateSigma_rad = 0.03;
+constexpr double kMinKnownShare = 0.15;      // of returns over known cells
+constexpr double kSlip = 25.0;               // squared Mahalanobis of fix and prediction
+constexpr double kLeastTimeStep_s = 1.0;     // recorded stamps are not to be trusted below this
+constexpr double kSpeedSigma_m_per_s = 0.5;  // for want of odometry
+constexpr double kTurnSigma_rad_per_s = 0.7;
+constexpr double kRadPerTravel_m = 3.0;  // a turn of 1 rad renews the map as so much travel
+
+Matrix3d diagonal(double sigma_x_m, double sigma_y_m, double sigma_rad) {
+  return Eigen::Vector3d(sigma_x_m * sigma_x_m, sigma_y_m * sigma_y_m, sigma_rad * sigma_rad)
+      .asDiagonal();
+}
+
+/// A covariance in the frame of the parent, turned into the frame that is turned by `angle_rad`.
+Matrix3d seen_from(const Matrix3d& covariance, double angle_rad) {
+  const double c = std::cos(angle_rad);
+  const double s = std::sin(angle_rad);
+  Matrix3d turn;
+  turn << c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0;
+  const Matrix3d seen = turn * covariance * turn.transpose();
+  return 0.5 * (seen + seen.transpose());
+}
+
+Matrix3d match_covariance(const Matrix3d& information) {
+  const Matrix3d regular =
+      information + diagonal(1.0 / kBlindSigma_m, 1.0 / kBlindSigma_m, 1.0 / kBlindSigma_rad);
+  const Matrix3d covariance =
+      regular.inverse() + diagonal(kMatchSigma_m, kMatchSigma_m, kMatchSigma_rad);
+  return 0.5 * (covariance + covariance.transpose());
+}
+
+bool is_degenerate(const Matrix3d& covariance) {
+  const Eigen::Matrix2d translation = covariance.topLeftCorner<2, 2>();
+  const double largest =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(translation).eigenvalues().y();
+  return largest > kDegenerateSigma_m * kDegenerateSigma_m ||
+         covariance(2, 2) > kDegenerateSigma_rad * kDegenerateSigma_rad;
+}
+
+bool is_refused(FixNote note) {
+  return note == FixNote::kBlockedSensor || note == FixNote::kNoOverlap ||
+         note == FixNote::kContradiction;
+}
+
+}  // namespace
+
+const char* to_string(FixNote note) {
+  switch (note) {
+    case FixNote::kMatched:
+      return "matched";
+    case FixNote::kFirst:
+      return "first";
+    case FixNote::kSlip:
+      return "slip";
+    case FixNote::kTeleport:
+      return "teleport";
+    case FixNote::kBlockedSensor:
+      return "blocked sensor";
+    case FixNote::kNoOverlap:
+      return "no overlap";
+    case FixNote::kContradiction:
+      return "contradiction";
+  }
+  return "unknown";
+}
+
+LocalMapper::LocalMapper(const LpmOptions& options)
+    : options_(options), map_(options.map), matcher_(options.match) {
+  CAIRN_CHECK(validate(options).ok());
+}
+
+LocalFix LocalMapper::absorb(const JoinedScan& joined) {
+  matcher_.take(joined.scan);
+  LocalFix fix;
+  fix.time = joined.scan.time;
+  if (!is_started_) {
+    fix.T_lpm_robot = T_lpm_robot_;
+    fix.covariance = diagonal(kLeastSigma_m, kLeastSigma_m, kLeastSigma_rad);
+    fix.motion.covariance = fix.covariance;
+  } else {
+    bool is_believed = true;
+    const GaussianPose motion = predicted_motion(joined, &is_believed);
+    const GaussianPose predicted = compounded({T_lpm_robot_, uncertainty_}, motion);
+    fix.T_lpm_robot = predicted.mean;
+    fix.covariance = predicted.covariance;
+    fix.motion = motion;
+    if (matcher_.is_blocked()) {
+      fix.note = FixNote::kBlockedSensor;
+    } else {
+      settle(matcher_.match(map_, predicted), predicted, &fix);
+    }
+    if (!is_believed && fix.is_matched) {
+      fix.note = FixNote::kTeleport;
+    }
+  }
+  advance(joined, fix);
+  draw(joined.scan, fix.note);
+  return fix;
+}
+
+GaussianPose LocalMapper::predicted_motion(const JoinedScan& joined, bool* is_believed) const {
+  const MotionModelOptions& noise = options_.motion;
+  const double dt_s = seconds_between(time_, joined.scan.time);
+  *is_believed = true;
+  if (T_odom_robot_ && joined.T_odom_robot) {
+    const Pose2 step = T_odom_robot_->inverse() * *joined.T_odom_robot;
+    const double drive_m = step.translation().norm();
+    const double turn_rad = std::abs(step.theta());
+    const double possible_s = std::max(std::abs(dt_s), kLeastTimeStep_s);
+    *is_believed = drive_m <= noise.max_speed_m_per_s * possible_s &&
+                   turn_rad <= noise.max_turn_rate_rad_per_s * possible_s;
+    if (*is_believed) {
+      const Matrix3d along_step =
+          diagonal(noise.drive_noise_m + noise.drive_noise_m_per_m * drive_m,
+                   noise.drive_noise_m + noise.slide_noise_m_per_m * drive_m,
+                   noise.turn_noise_rad + noise.turn_noise_rad_per_rad * turn_rad +
+                       noise.turn_noise_rad_per_m * drive_m);
+      return {step, seen_from(along_step, -0.5 * step.theta())};
+    }
+  }
+  const double span_s = std::clamp(dt_s, 0.0, kLeastTimeStep_s);
+  const double unsure_s = std::max(0.2, span_s);
+  return {Pose2(speed_m_per_s_ * span_s, 0.0, turn_rate_rad_per_s_ * span_s),
+          diagonal(kSpeedSigma_m_per_s * unsure_s, kSpeedSigma_m_per_s * unsure_s,
+                   kTurnSigma_rad_per_s * unsure_s)};
+}
+
+void LocalMapper::settle(const ScanMatch& match, const GaussianPose& predicted, LocalFix* fix) {
+  fix->score = match.score;
+  if (match.known_share < kMinKnownShare) {
+    fix->note = FixNote::kNoOverlap;
+    return;
+  }
+  if (match.score < options_.match.min_explained_share) {
+    fix->note = FixNote::kContradiction;
+    return;
+  }
+  fix->T_lpm_robot = match.fit.T_lpm_robot;
+  fix->is_matched = true;
+  fix->covariance = match_covariance(match.fit.information);
+  fix->is_degenerate = is_degenerate(fix->covariance);
+  const double deviation =
+      squared_mahalanobis(fix->T_lpm_robot, predicted.mean, predicted.covariance);
+  fix->note = deviation > kSlip ? FixNote::kSlip : FixNote::kMatched;
+
+  // The map bears its errors along as it is renewed: one independent match per renewal.
+  fix->motion.mean = T_lpm_robot_.inverse() * fix->T_lpm_robot;
+  const double travel_m = fix->motion.mean.translation().norm() +
+                          kRadPerTravel_m * std::abs(fix->motion.mean.theta()) / (2.0 * kPi);
+  const double renewed_share = std::min(1.0, travel_m / options_.renewal_travel_m);
+  const Matrix3d posterior = (match.fit.information + predicted.covariance.inverse()).inverse() +
+                             diagonal(kMatchSigma_m, kMatchSigma_m, kMatchSigma_rad);
+  fix->motion.covariance =
+      renewed_share * seen_from(0.5 * (posterior + posterior.transpose()), T_lpm_robot_.theta()) +
+      diagonal(kStillSigma_m, kStillSigma_m, kStillSigma_rad);
+}
+
+void LocalMapper::advance(const JoinedScan& joined, const LocalFix& fix) {
+  const double dt_s = seconds_between(time_, joined.scan.time);
+  if (fix.is_matched && dt_s > 0.0) {
+    speed_m_per_s_ = std::clamp(fix.motion.mean.x() / dt_s, -options_.motion.max_speed_m_per_s,
+                                options_.motion.max_speed_m_per_s);
+    turn_rate_rad_per_s_ =
+        std::clamp(fix.motion.mean.theta() / dt_s, -options_.motion.max_turn_rate_rad_per_s,
+                   options_.motion.max_turn_rate_rad_per_s);
+  } else if (!fix.is_matched) {
+    speed_m_per_s_ = 0.0;
+    turn_rate_rad_per_s_ = 0.0;
+  }
+  travel_m_ += (fix.T_lpm_robot.translation() - T_lpm_robot_.translation()).norm();
+  time_ = joined.scan.time;
+  T_lpm_robot_ = fix.T_lpm_robot;
+  T_odom_robot_ = joined.T_odom_robot;
+  uncertainty_ = is_refused(fix.note) ? fix.covariance
+                                      : diagonal(kLeastSigma_m, kLeastSigma_m, kLeastSigma_rad);
+  refusals_ = is_refused(fix.note) ? refusals_ + 1 : 0;
+}
+
+void LocalMapper::draw(const LaserScan& scan, FixNote note) {
+  const Pose2 since = T_lpm_drawn_.inverse() * T_lpm_robot_;
+  bool is_due = !is_started_ || since.translation().norm() >= options_.insert_every_m ||
+                std::abs(since.theta()) >= options_.insert_every_rad;
+  if (note == FixNote::kBlockedSensor) {
+    return;
+  }
+  if (note == FixNote::kContradiction) {
+    is_due = refusals_ >= options_.refusals_before_restart;
+    if (is_due) {
+      map_.clear();
+    }
+  }
+  if (!is_due) {
+    return;
+  }
+  map_.insert(scan, T_lpm_robot_, travel_m_);
+  T_lpm_drawn_ = T_lpm_robot_;
+  uncertainty_ = diagonal(kLeastSigma_m, kLeastSigma_m, kLeastSigma_rad);
+  refusals_ = 0;
+  is_started_ = true;
+}
+
+void LocalMapper::restore(const LaserScan& scan, const Pose2& T_lpm_robot) {
+  if (is_started_) {
+    travel_m_ += (T_lpm_robot.translation() - T_lpm_robot_.translation()).norm();
+  }
+  map_.insert(scan, T_lpm_robot, travel_m_);
+  is_started_ = true;
+  time_ = scan.time;
+  T_lpm_robot_ = T_lpm_robot;
+  T_lpm_drawn_ = T_lpm_robot;
+  T_odom_robot_.reset();
+  uncertainty_ = diagonal(kLeastSigma_m, kLeastSigma_m, kLeastSigma_rad);
+  speed_m_per_s_ = 0.0;
+  turn_rate_rad_per_s_ = 0.0;
+}
+
+}  // namespace cairn

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "geometry/gaussian_pose.hpp"
+#include "grid/occupancy_grid.hpp"
+#include "lpm/lpm_options.hpp"
+#include "lpm/scan_matcher.hpp"
+#include "lpm/scrolling_map.hpp"
+#include "sensing/scan_joiner.hpp"
+
+namespace cairn {
+
+/// What the local layer has to say about how it came to a fix.
+enum class FixNote : std::uint8_t {
+  kMatched,        ///< The scan agrees with the map and with odometry.
+  kFirst,          ///< Nothing to match with: the first scan, or the first after a restart.
+  kSlip,           ///< Matched, but odometry says otherwise: slip, push, or a stalled wheel.
+  kTeleport,       ///< Matched; odometry jumped farther than the robot can drive.
+  kBlockedSensor,  ///< Refused: hardly any returns.
+  kNoOverlap,      ///< Refused: hardly any return falls where the map knows anything.
+  kContradiction,  ///< Refused: the returns do not fall on the walls of the map.
+};
+
+/// The name of a note, as in "no overlap".
+[[nodiscard]] const char* to_string(FixNote note);
+
+/// Where the robot is in the local metrical map, after one scan.
+struct LocalFix {
+  TimePoint time;
+  /// In the "lpm" frame: one continuous frame of corrected odometry for the whole life of the
+  /// mapper.
+  Pose2 T_lpm_robot;
+  /// Of the match alone, of (x, y, theta) in the lpm frame, in m^2, m rad and rad^2: positive
+  /// definite, long along a corridor. Where the match was refused, that of dead reckoning.
+  Matrix3d covariance = Matrix3d::Identity();
+  /// T_previous_robot: the robot in the frame of the robot at the fix before. Motions of successive
+  /// fixes are to be compounded as independent ones: their covariance is the rate at which dead
+  /// reckoning by scan matching drifts.
+  GaussianPose motion;
+  bool is_matched = false;
+  bool is_degenerate = false;  ///< The scan does not fix every direction (a corridor, few returns).
+  double score = 0.0;  ///< Share of the returns over known cells that fall on walls, [0, 1].
+  FixNote note = FixNote::kFirst;
+};
+
+/// The local metrical layer: tracks the robot within a map of its surroundings that is made on the
+/// way, scrolls with it, and forgets what was left behind, so that no large loop can close by
+/// accident. Depends on nothing but recent sensing.
+///
+/// Source: Kuipers et al., ICRA 2004, Sec. III-A; Modayil et al., IROS 2004, Sec. IV-A. Where the
+/// papers localize by a particle filter, a scan is matched here: prediction by odometry, least
+/// squares on the distance to the walls, and where that fails an exact correlative search.
+///
+/// Memory is constant. The same scans give the same fixes, bit for bit.
+class LocalMapper {
+ public:
+  /// @pre validate(options).ok()
+  explicit LocalMapper(const LpmOptions& options = {});
+
+  /// Takes the next scan: every scan gives a fix, matched or refused.
+  /// @pre validate(joined.scan).ok()
+  LocalFix absorb(const JoinedScan& joined);
+
+  /// The occupancy grid around the robot, in the lpm frame. Its origin moves by whole cells.
+  [[nodiscard]] const OccupancyGrid& grid() const { return map_.grid(); }
+
+  /// Puts back a scan remembered with its pose, without matching, to rebuild the map after a
+  /// restart: oldest first. The next scan absorbed is looked for around the pose restored last.
+  /// @pre validate(scan).ok()
+  void restore(const LaserScan& scan, const Pose2& T_lpm_robot);
+
+ private:
+  [[nodiscard]] GaussianPose predicted_motion(const JoinedScan& joined, bool* is_believed) const;
+  void settle(const ScanMatch& match, const GaussianPose& predicted, LocalFix* fix);
+  void draw(const LaserScan& scan, FixNote note);
+  void advance(const JoinedScan& joined, const LocalFix& fix);
+
+  LpmOptions options_;
+  ScrollingMap map_;
+  ScanMatcher matcher_;
+  bool is_started_ = false;
+  TimePoint time_;
+  Pose2 T_lpm_robot_;
+  std::optional<Pose2> T_odom_robot_;
+  Matrix3d uncertainty_ = Matrix3d::Zero();  // of dead reckoning since the last match, lpm frame
+  Pose2 T_lpm_drawn_;                        // where the map took its last scan
+  double travel_m_ = 0.0;
+  double speed_m_per_s_ = 0.0;  // ahead, for want of odometry
+  double turn_rate_rad_per_s_ = 0.0;
+  int refusals_ = 0;
+};
+
+}  // namespace cairn

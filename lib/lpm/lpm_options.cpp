@@ -1,0 +1,45 @@
+#include "lpm/lpm_options.hpp"
+
+#include <string>
+
+#include "base/validator.hpp"
+
+namespace cairn {
+
+Status validate(const LpmOptions& options) {
+  const ScrollingMapOptions& map = options.map;
+  const MotionModelOptions& motion = options.motion;
+  const ScanMatchOptions& match = options.match;
+  return Validator("lpm")
+      .within("map.cell_m", map.cell_m, 0.01, 0.5)
+      .within("map.window_m", map.window_m, 4.0, 200.0)
+      .require("map.window_m", map.window_m / map.cell_m <= 4096.0, "be at most 4096 cells")
+      .positive("map.memory_travel_m", map.memory_travel_m)
+      .within("map.hit_log_odds", map.hit_log_odds, 0.41, 3.0)
+      .within("map.miss_log_odds", map.miss_log_odds, 0.01, 3.0)
+      .within("map.max_log_odds", map.max_log_odds, 1.0, 20.0)
+      .positive("map.max_free_range_m", map.max_free_range_m)
+      .within("motion.drive_noise_m_per_m", motion.drive_noise_m_per_m, 0.0, 1.0)
+      .within("motion.slide_noise_m_per_m", motion.slide_noise_m_per_m, 0.0, 1.0)
+      .within("motion.turn_noise_rad_per_rad", motion.turn_noise_rad_per_rad, 0.0, 1.0)
+      .within("motion.turn_noise_rad_per_m", motion.turn_noise_rad_per_m, 0.0, 1.0)
+      .within("motion.drive_noise_m", motion.drive_noise_m, 1e-5, 1.0)
+      .within("motion.turn_noise_rad", motion.turn_noise_rad, 1e-5, 1.0)
+      .positive("motion.max_speed_m_per_s", motion.max_speed_m_per_s)
+      .positive("motion.max_turn_rate_rad_per_s", motion.max_turn_rate_rad_per_s)
+      .within("match.point_spacing_m", match.point_spacing_m, 0.0, 10.0)
+      .positive("match.max_match_range_m", match.max_match_range_m)
+      .within("match.hit_sigma_m", match.hit_sigma_m, 0.001, 1.0)
+      .within("match.independent_share", match.independent_share, 1e-4, 1.0)
+      .within("match.min_explained_share", match.min_explained_share, 0.0, 1.0)
+      .within("match.min_returns", match.min_returns, 3, 10'000)
+      .within("match.search_range_m", match.search_range_m, 0.0, 5.0)
+      .within("match.search_turn_rad", match.search_turn_rad, 0.0, 3.2)
+      .within("insert_every_m", options.insert_every_m, 0.0, 5.0)
+      .within("insert_every_rad", options.insert_every_rad, 0.0, 3.2)
+      .within("renewal_travel_m", options.renewal_travel_m, 0.01, 1000.0)
+      .within("refusals_before_restart", options.refusals_before_restart, 1, 1000)
+      .status();
+}
+
+}  // namespace cairn

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "base/result.hpp"
+
+namespace cairn {
+
+/// The scrolling occupancy grid around the robot.
+struct ScrollingMapOptions {
+  double cell_m = 0.05;            ///< [0.01, 0.5]
+  double window_m = 40.0;          ///< Side of the square window. [4, 200]
+  double memory_travel_m = 30.0;   ///< What was not seen for this travel is forgotten. > 0
+  double hit_log_odds = 0.9;       ///< Added to the cell a beam ends in. [0.41, 3]
+  double miss_log_odds = 0.4;      ///< Taken from a cell a beam passes through. [0.01, 3]
+  double max_log_odds = 3.5;       ///< Clamp, so that what has moved away fades. [1, 20]
+  double max_free_range_m = 20.0;  ///< A beam without return frees no more than this. > 0
+};
+
+/// How far dead reckoning is believed between two scans: one standard deviation.
+struct MotionModelOptions {
+  double drive_noise_m_per_m = 0.10;     ///< [0, 1]
+  double slide_noise_m_per_m = 0.05;     ///< Sideways. [0, 1]
+  double turn_noise_rad_per_rad = 0.15;  ///< [0, 1]
+  double turn_noise_rad_per_m = 0.05;    ///< [0, 1]
+  double drive_noise_m = 0.01;           ///< Per scan, even at rest. > 0
+  double turn_noise_rad = 0.005;         ///< Per scan, even at rest. > 0
+  double max_speed_m_per_s = 3.0;        ///< Faster odometry is not believed. > 0
+  double max_turn_rate_rad_per_s = 6.0;  ///< Faster odometry is not believed. > 0
+};
+
+/// Scan matching against the scrolling map.
+struct ScanMatchOptions {
+  double point_spacing_m = 0.05;      ///< Returns closer together than this are thinned. >= 0
+  double max_match_range_m = 40.0;    ///< Farther returns are not matched. > 0
+  double hit_sigma_m = 0.05;          ///< Spread of a return around the wall. > 0
+  double independent_share = 0.1;     ///< Share of returns that count as independent. (0, 1]
+  double min_explained_share = 0.45;  ///< Of the returns over known cells; below: refused. [0, 1]
+  int min_returns = 12;               ///< Fewer returns: the sensor is blocked. [3, 10000]
+  double search_range_m = 0.6;        ///< Half the window of the wide search. [0, 5]
+  double search_turn_rad = 0.4;       ///< Half the window of the wide search. [0, 3.2]
+};
+
+/// The local metrical layer. In the configuration file: the object "lpm".
+struct LpmOptions {
+  ScrollingMapOptions map;
+  MotionModelOptions motion;
+  ScanMatchOptions match;
+  double insert_every_m = 0.1;      ///< The map takes a scan after this travel, [0, 5]
+  double insert_every_rad = 0.1;    ///< or after this turn. [0, 3.2]
+  double renewal_travel_m = 5.0;    ///< Travel after which the map is another one: per renewal the
+                                    ///< error of one match adds to dead reckoning. > 0
+  int refusals_before_restart = 5;  ///< So many in a row: the map starts afresh. [1, 1000]
+};
+
+/// Names every field that is out of range, with its value.
+[[nodiscard]] Status validate(const LpmOptions& options);
+
+}  // namespace cairn

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "geometry/gaussian_pose.hpp"
+#include "lpm/correlative_search.hpp"
+#include "lpm/lpm_options.hpp"
+#include "lpm/scan_refinement.hpp"
+#include "lpm/scrolling_map.hpp"
+#include "sensing/laser_scan.hpp"
+
+namespace cairn {
+
+/// Where a scan lies in the map, and how well.
+struct ScanMatch {
+  Refinement fit;
+  double score = 0.0;         ///< Share of the returns over known cells that fall on walls, [0, 1].
+  double known_share = 0.0;   ///< Share of the returns that fall on known cells, [0, 1].
+  bool was_searched = false;  ///< The wide search was needed.
+};
+
+/// Matches scans with the scrolling map, with effort by need: least squares from the prediction
+/// where that is certain and succeeds, a correlative search over the uncertain region otherwise.
+class ScanMatcher {
+ public:
+  explicit ScanMatcher(const ScanMatchOptions& options) : options_(options) {}
+
+  /// Takes the returns of a scan, in the robot frame, thinned to the point spacing.
+  void take(const LaserScan& scan);
+  [[nodiscard]] bool is_blocked() const;
+
+  /// @pre the covariance of the prediction is positive definite
+  [[nodiscard]] ScanMatch match(const ScrollingMap& map, const GaussianPose& T_lpm_robot_predicted);
+
+ private:
+  void judge(const ScrollingMap& map, ScanMatch* match) const;
+  void search(const ScrollingMap& map, const GaussianPose& predicted, ScanMatch* match);
+
+  ScanMatchOptions options_;
+  std::vector<Vector2d> returns_;      // robot frame
+  std::vector<Vector2d> few_returns_;  // for the search
+  CorrelativeSearch search_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "base/result.hpp"
+#include "sensing/laser_scan.hpp"
+#include "sensing/odometry.hpp"
+
+namespace cairn {
+
+/// A scan together with the dead reckoning of the moment at which it was taken.
+struct JoinedScan {
+  LaserScan scan;
+  std::optional<Pose2> T_odom_robot;  ///< At scan.time; none where odometry says nothing about it.
+};
+
+/// How patiently scans and odometry are brought together. In the configuration file: "joiner".
+struct JoinerOptions {
+  double history_s = 10.0;           ///< Odometry that is kept, by its stamps. [0.1, 600]
+  double patience_s = 0.5;           ///< How long a scan waits for odometry. [0, 60]
+  double clock_step_back_s = 5.0;    ///< A longer jump back is a new clock. [0.1, 3600]
+  double clock_step_ahead_s = 3600;  ///< A longer jump ahead is a new clock. [1, 1e9]
+};
+
+/// Names every field that is out of range, with its value.
+[[nodiscard]] Status validate(const JoinerOptions& options);
+
+/// What was unusual in the streams. Nothing but exact duplicates is ever dropped.
+struct JoinerCounters {
+  std::uint64_t duplicates = 0;    ///< Scans dropped: same stamp and ranges as the one before.
+  std::uint64_t out_of_order = 0;  ///< Scans stamped at or before an earlier one, yet passed on.
+  std::uint64_t clock_steps = 0;   ///< New clocks; odometry of the old clock is forgotten.
+  std::uint64_t gaps = 0;          ///< Scans whose neighbours in odometry are > patience_s apart.
+  std::uint64_t scans_without_odometry = 0;
+};
+
+/// Joins scans and odometry by their stamps. Scans come out in the order in which they came in.
+///
+/// The odometry of a scan is the sample with exactly its stamp if there is one, else interpolated
+/// between the two samples around it. A scan waits until a sample stamped at or after it has come.
+/// Where later scans show that `patience_s` have passed meanwhile, odometry is extrapolated from
+/// the last two samples if they are not older than that, else the scan goes without.
+///
+/// Stamps may step back, as those of recorded logs do: samples are kept in the order of arrival,
+/// and a scan prefers samples that came after the one its predecessor was joined with. So the
+/// result does not depend on how the two streams interleave, within the patience.
+///
+/// Memory is bounded by `history_s` and, against floods of equal stamps, by fixed capacities.
+class ScanJoiner {
+ public:
+  explicit ScanJoiner(const JoinerOptions& options = {});
+
+  /// @pre validate(sample).ok()
+  void add(const OdometrySample& sample);
+  /// @pre validate(scan).ok()
+  void add(LaserScan scan);
+
+  /// The next scan that need not wait any longer.
+  [[nodiscard]] std::optional<JoinedScan> next();
+  /// The input has ended: no scan waits any longer.
+  void flush();
+
+  [[nodiscard]] const JoinerCounters& counters() const { return counters_; }
+
+ private:
+  void release_ready();
+  void release_front(std::optional<Pose2> T_odom_robot);
+  void release_all();
+  void forget_odometry();
+  [[nodiscard]] bool is_duplicate(const LaserScan& scan) const;
+  [[nodiscard]] bool is_clock_step(std::optional<TimePoint> newest, TimePoint time) const;
+  void count_clock_step(std::optional<TimePoint> newest_of_other, TimePoint time);
+  [[nodiscard]] std::optional<std::uint64_t> find_sample_at_or_after(TimePoint time) const;
+  [[nodiscard]] std::optional<Pose2> joined(TimePoint time, std::uint64_t last_arrival);
+  [[nodiscard]] std::optional<Pose2> extrapolated(TimePoint time);
+  [[nodiscard]] const OdometrySample& sample(std::uint64_t arrival) const;
+  [[nodiscard]] std::uint64_t end_arrival() const { return first_arrival_ + odometry_.size(); }
+
+  JoinerOptions options_;
+  JoinerCounters counters_;
+  std::deque<OdometrySample> odometry_;  // in the order of arrival
+  std::uint64_t first_arrival_ = 0;      // arrival number of odometry_.front()
+  std::uint64_t cursor_ = 0;             // samples before it belong to earlier scans
+  std::deque<LaserScan> waiting_;
+  std::deque<JoinedScan> ready_;
+  std::optional<TimePoint> newest_odometry_;
+  std::optional<TimePoint> newest_scan_;
+  std::optional<LaserScan> last_scan_;
+};
+
+}  // namespace cairn

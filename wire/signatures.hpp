@@ -1,0 +1,105 @@
+#pragma once
+// The signatures of all message types: our own and the foreign ones we accept. A test encodes a
+// sample of each type, so that a signature that does not fit its .lcm file is noticed.
+
+#include <string_view>
+
+#include "wire/wire_check.hpp"
+
+// Declared, not included: a file that decodes one type does not pay for all of them.
+namespace cairn_lcm {
+class delta_request_t;
+class event_request_t;
+class gateway_t;
+class grid_map_t;
+class hypotheses_t;
+class laser_scan_t;
+class map_delta_t;
+class odometry_t;
+class place_event_t;
+class place_t;
+class plan_request_t;
+class plan_t;
+class pose_t;
+class result_t;
+class rpc_header_t;
+class segment_t;
+class snapshot_chunk_t;
+class snapshot_request_t;
+class sonar_ring_t;
+class status_t;
+class tile_t;
+class topology_t;
+class trajectory_t;
+}  // namespace cairn_lcm
+namespace bot_core {
+class planar_lidar_t;
+class pose_t;
+}  // namespace bot_core
+namespace mbot_lcm_msgs {
+class lidar_t;
+class pose2D_t;
+}  // namespace mbot_lcm_msgs
+namespace vulcan_lcm {
+class laser_3dof_t;
+class laser_t;
+class odometry_t;
+}  // namespace vulcan_lcm
+
+namespace cairn::wire {
+
+// A message within another is its signature in braces.
+#define CAIRN_RPC_HEADER "{q q i q}"
+#define CAIRN_RESULT "{" CAIRN_RPC_HEADER " i s i s}"
+#define CAIRN_GATEWAY "d d d d i q"
+#define CAIRN_PLACE "q s d d d d[=9] s i i {" CAIRN_GATEWAY "}[8]"
+#define CAIRN_SEGMENT "q i q i i d d d d d[=9]"
+#define CAIRN_TILE "i i i b[2]"
+#define CAIRN_SIGNATURE(type, text) \
+  template <>                       \
+  inline constexpr std::string_view kSignatureText<type> = text
+
+CAIRN_SIGNATURE(cairn_lcm::delta_request_t, CAIRN_RPC_HEADER "i q q");
+CAIRN_SIGNATURE(cairn_lcm::event_request_t, CAIRN_RPC_HEADER "q");
+CAIRN_SIGNATURE(cairn_lcm::gateway_t, CAIRN_GATEWAY);
+CAIRN_SIGNATURE(cairn_lcm::grid_map_t, "q q q d i i {" CAIRN_TILE "}[5]");
+CAIRN_SIGNATURE(cairn_lcm::hypotheses_t,
+                "q q q q q q q q s i q[9] q[9] d[9] d[9] i[9] i[9] i[9] i[9]");
+CAIRN_SIGNATURE(cairn_lcm::laser_scan_t, "q d d d d i f[5]");
+CAIRN_SIGNATURE(cairn_lcm::map_delta_t, "q q q i q q d i i i i i b[11]");
+CAIRN_SIGNATURE(cairn_lcm::odometry_t, "q d d d");
+CAIRN_SIGNATURE(cairn_lcm::place_event_t, "q q q i s q q s");
+CAIRN_SIGNATURE(cairn_lcm::place_t, CAIRN_PLACE);
+CAIRN_SIGNATURE(cairn_lcm::plan_request_t, CAIRN_RPC_HEADER "q q s d d d");
+CAIRN_SIGNATURE(cairn_lcm::plan_t, CAIRN_RESULT "q q q d i q[5] i s[7] i d[9] d[9] d[9]");
+CAIRN_SIGNATURE(cairn_lcm::pose_t, "q q d d d d[=9] q d d d d[=9] i d d d d[=9]");
+CAIRN_SIGNATURE(cairn_lcm::result_t, CAIRN_RPC_HEADER " i s i s");
+CAIRN_SIGNATURE(cairn_lcm::rpc_header_t, "q q i q");
+CAIRN_SIGNATURE(cairn_lcm::segment_t, CAIRN_SEGMENT);
+CAIRN_SIGNATURE(cairn_lcm::snapshot_chunk_t, "q q i q q q i i i i i i b[11]");
+CAIRN_SIGNATURE(cairn_lcm::snapshot_request_t, CAIRN_RPC_HEADER "i q q i i[4]");
+CAIRN_SIGNATURE(cairn_lcm::sonar_ring_t, "q i f[1] f[1] f[1] f[1]");
+CAIRN_SIGNATURE(cairn_lcm::status_t,
+                "q q i s i s s  q q q q  i i i d i i q  q q q q q q q q q q q q i i f f f");
+CAIRN_SIGNATURE(cairn_lcm::tile_t, CAIRN_TILE);
+CAIRN_SIGNATURE(cairn_lcm::topology_t,
+                "q q q q q d q i i {" CAIRN_PLACE "}[8] i {" CAIRN_SEGMENT "}[10]");
+CAIRN_SIGNATURE(cairn_lcm::trajectory_t, "q q q i q[3] d[3] d[3] d[3]");
+
+CAIRN_SIGNATURE(bot_core::planar_lidar_t, "q i f[1] i f[3] f f");
+CAIRN_SIGNATURE(bot_core::pose_t, "q d[=3] d[=3] d[=4] d[=3] d[=3]");
+CAIRN_SIGNATURE(mbot_lcm_msgs::lidar_t, "q i f[1] f[1] q[1] f[1]");
+CAIRN_SIGNATURE(mbot_lcm_msgs::pose2D_t, "q f f f");
+CAIRN_SIGNATURE(vulcan_lcm::laser_3dof_t, "i q i f f h f[5] h[5] f f f f f");
+CAIRN_SIGNATURE(vulcan_lcm::laser_t, "i q i f f h f[5] h[5] f f f f f f f f");
+CAIRN_SIGNATURE(vulcan_lcm::odometry_t, "q i d d d d d");
+
+#undef CAIRN_SIGNATURE
+#undef CAIRN_TILE
+#undef CAIRN_SEGMENT
+#undef CAIRN_PLACE
+#undef CAIRN_GATEWAY
+#undef CAIRN_RESULT
+#undef CAIRN_RPC_HEADER
+
+}  // namespace cairn::wire
