@@ -52,13 +52,21 @@ Pose start_of(const World& world, const Tour& tour) {
 }
 
 std::optional<std::string> obstacle_on(const FloorPlan& plan, Point from, Point to) {
-  const double length_m = distance_m(from, to);
-  const int steps = static_cast<int>(std::ceil(length_m / kCheckEvery_m));
-  for (int step = 0; step <= steps; ++step) {
-    const double share = steps == 0 ? 0.0 : static_cast<double>(step) / steps;
+  // The ends first: where both are on the floor, the leg is no longer than the plan.
+  const auto is_blocked = [&plan](Point here) {
+    return clearance_m(plan, here, kRobotRadius_m) < kRobotRadius_m;
+  };
+  for (const Point end : {from, to}) {
+    if (is_blocked(end)) {
+      return "a wall is less than 0.25 m from " + printed(end);
+    }
+  }
+  const int steps = static_cast<int>(std::ceil(distance_m(from, to) / kCheckEvery_m));
+  for (int step = 1; step < steps; ++step) {
+    const double share = static_cast<double>(step) / steps;
     const Point here = {from.x_m + share * (to.x_m - from.x_m),
                         from.y_m + share * (to.y_m - from.y_m)};
-    if (clearance_m(plan, here, kRobotRadius_m) < kRobotRadius_m) {
+    if (is_blocked(here)) {
       return "a wall is less than 0.25 m from " + printed(here);
     }
   }
