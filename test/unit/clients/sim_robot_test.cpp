@@ -7,6 +7,7 @@
 #include "clients/sim/driver.hpp"
 #include "clients/sim/laser.hpp"
 #include "clients/sim/odometer.hpp"
+#include "clients/sim/random_source.hpp"
 
 namespace cairn::sim {
 namespace {
@@ -76,6 +77,23 @@ TEST(Driver, KeepsItsSpeeds) {
   EXPECT_TRUE(drive.has_arrived);
   EXPECT_LE(drive.fastest_m_per_s, DriverOptions{}.speed_m_per_s + 1e-9);
   EXPECT_LE(drive.fastest_turn_rad_per_s, DriverOptions{}.turn_speed_rad_per_s + 1e-9);
+}
+
+TEST(Driver, ArrivesOnEveryPathHoweverItZigzags) {
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomSource random(seed, 0);
+    std::vector<Point> path = {{0, 0}};
+    for (int leg = 0; leg < 12; ++leg) {
+      const double length_m = 0.05 + 3.0 * random.uniform();
+      const double direction_rad = 2.0 * std::numbers::pi * random.uniform();
+      path.push_back({path.back().x_m + length_m * std::cos(direction_rad),
+                      path.back().y_m + length_m * std::sin(direction_rad)});
+    }
+    const Drive drive = driven(path, {path.front(), 6.0 * random.uniform()});
+    EXPECT_TRUE(drive.has_arrived);
+    EXPECT_LT(drive.worst_off_path_m, 0.4);
+  }
 }
 
 TEST(Driver, ArrivesAtOnceWhereThePathIsAPoint) {

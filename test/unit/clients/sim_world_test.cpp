@@ -106,6 +106,8 @@ TEST(World, ComplaintsAboutToursNameTheLeg) {
               HasSubstr("w.txt:4: expected a point of the drawing, got 'X'"));
   EXPECT_THAT(complaint_about(replaced(kRing, "A B C D A", "A C")),
               HasSubstr("w.txt:4: expected a free straight leg from 'A' to 'C', but a wall is"));
+  EXPECT_THAT(complaint_about(replaced(kRing, "loop A", "lo\"op A")),
+              HasSubstr("expected a tour's name of letters and digits"));
   EXPECT_THAT(complaint_about(replaced(kRing, "A B C D A", "A A")),
               HasSubstr("the point 'A' follows itself"));
   EXPECT_THAT(complaint_about(replaced(kRing, "A B C D A", "A")),
