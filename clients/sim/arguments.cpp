@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 #include <system_error>
 
@@ -94,6 +95,17 @@ void add_robot_options(CLI::App& app, Arguments& arguments, double& drift) {
   number("--odometry-drift", drift, "factor on all errors of odometry; 0: none", 0.0, 100.0);
 }
 
+/// A floor plan needs a tour file; a drawn world holds its tours and its scale.
+void check_world_options(const CLI::App& app, const Arguments& arguments) {
+  const bool has_tour_file = app.count("--tour-file") > 0;
+  if (is_picture(arguments) && !has_tour_file) {
+    throw CLI::ValidationError("--tour-file", "is needed with a floor plan in PNG");
+  }
+  if (!is_picture(arguments) && (has_tour_file || app.count("--m-per-pixel") > 0)) {
+    throw CLI::ValidationError("--tour-file, --m-per-pixel", "are for a floor plan in PNG");
+  }
+}
+
 void multiply_drift(OdometerOptions& odometer, double factor) {
   odometer.scale_error *= factor;
   odometer.turn_bias_rad_per_m *= factor;
@@ -104,6 +116,10 @@ void multiply_drift(OdometerOptions& odometer, double factor) {
 }
 
 }  // namespace
+
+bool is_picture(const Arguments& arguments) {
+  return std::filesystem::path(arguments.world_file).extension() == ".png";
+}
 
 std::optional<Arguments> parse_arguments(int argc, const char* const* argv, int& exit_code) {
   CLI::App app("A robot with laser and drifting odometry that drives a tour through a drawn world.",
@@ -116,6 +132,7 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv, int&
   add_robot_options(app, arguments, drift);
   try {
     app.parse(argc, argv);
+    check_world_options(app, arguments);
   } catch (const CLI::ParseError& end) {
     const bool is_asked_for = app.exit(end) == 0;  // --help and --version end here, too.
     exit_code = is_asked_for ? kExitDone : kExitUsage;

@@ -34,13 +34,9 @@ extern "C" void request_stop(int /*signal*/) {
 }
 
 World world_of(const Arguments& arguments) {
-  if (std::filesystem::path(arguments.world_file).extension() != ".png") {
-    return read_world(arguments.world_file);
-  }
-  if (arguments.tour_file.empty()) {
-    throw BadWorld(arguments.world_file + ": a floor plan in PNG needs --tour-file");
-  }
-  return read_floor_plan(arguments.world_file, arguments.m_per_pixel, arguments.tour_file);
+  return is_picture(arguments)
+             ? read_floor_plan(arguments.world_file, arguments.m_per_pixel, arguments.tour_file)
+             : read_world(arguments.world_file);
 }
 
 double seconds(std::int64_t duration_us) {

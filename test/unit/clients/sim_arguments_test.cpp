@@ -67,6 +67,9 @@ TEST(Arguments, WhatIsWrongIsAUsageError) {
       {"w.txt", "--speed", "0"},
       {"w.txt", "--seed", "-1"},
       {"w.txt", "--laser-channel", ""},
+      {"plan.png"},
+      {"w.txt", "--tour-file", "t.txt"},
+      {"w.txt", "--m-per-pixel", "0.1"},
       {"w.txt", "--log", "x.log", "--speed", "2"},
       {"w.txt", "--log", "x.log", "--lcm-url", "memq://"},
   };
