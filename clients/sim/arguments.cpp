@@ -1,6 +1,10 @@
 #include "clients/sim/arguments.hpp"
 
+#include <array>
 #include <charconv>
+#include <cstdio>
+#include <filesystem>
+#include <string>
 #include <system_error>
 
 #include <CLI/CLI.hpp>
@@ -12,8 +16,9 @@ namespace {
 
 /// A number in [low, high]; unlike CLI::Range it refuses NaN.
 CLI::Validator within(double low, double high) {
-  const std::string range =
-      "in [" + CLI::detail::to_string(low) + ", " + CLI::detail::to_string(high) + "]";
+  std::array<char, 64> range_text{};
+  std::snprintf(range_text.data(), range_text.size(), "in [%.16g, %.16g]", low, high);
+  const std::string range = range_text.data();
   return {[low, high, range](std::string& word) {
             double value = 0.0;
             const char* const end = word.data() + word.size();
@@ -90,6 +95,17 @@ void add_robot_options(CLI::App& app, Arguments& arguments, double& drift) {
   number("--odometry-drift", drift, "factor on all errors of odometry; 0: none", 0.0, 100.0);
 }
 
+/// A floor plan needs a tour file; a drawn world holds its tours and its scale.
+void check_world_options(const CLI::App& app, const Arguments& arguments) {
+  const bool has_tour_file = app.count("--tour-file") > 0;
+  if (is_picture(arguments) && !has_tour_file) {
+    throw CLI::ValidationError("--tour-file", "is needed with a floor plan in PNG");
+  }
+  if (!is_picture(arguments) && (has_tour_file || app.count("--m-per-pixel") > 0)) {
+    throw CLI::ValidationError("--tour-file, --m-per-pixel", "are for a floor plan in PNG");
+  }
+}
+
 void multiply_drift(OdometerOptions& odometer, double factor) {
   odometer.scale_error *= factor;
   odometer.turn_bias_rad_per_m *= factor;
@@ -100,6 +116,10 @@ void multiply_drift(OdometerOptions& odometer, double factor) {
 }
 
 }  // namespace
+
+bool is_picture(const Arguments& arguments) {
+  return std::filesystem::path(arguments.world_file).extension() == ".png";
+}
 
 std::optional<Arguments> parse_arguments(int argc, const char* const* argv, int& exit_code) {
   CLI::App app("A robot with laser and drifting odometry that drives a tour through a drawn world.",
@@ -112,6 +132,7 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv, int&
   add_robot_options(app, arguments, drift);
   try {
     app.parse(argc, argv);
+    check_world_options(app, arguments);
   } catch (const CLI::ParseError& end) {
     const bool is_asked_for = app.exit(end) == 0;  // --help and --version end here, too.
     exit_code = is_asked_for ? kExitDone : kExitUsage;

@@ -28,6 +28,9 @@ struct Arguments {
   SimulationOptions simulation;
 };
 
+/// Whether the world is a floor plan in PNG, by its name.
+[[nodiscard]] bool is_picture(const Arguments& arguments);
+
 /// Parses the command line; prints help, version or what is wrong with it.
 /// @return nothing where the program is to end with `exit_code`
 [[nodiscard]] std::optional<Arguments> parse_arguments(int argc,

@@ -7,8 +7,10 @@
 namespace cairn::sim {
 namespace {
 
-constexpr double kSharpCorner_rad = 1.75;     ///< A little more than a right angle.
-constexpr double kTurnOnSpotAbove_rad = 0.9;  ///< Heading error to the target.
+constexpr double kSharpCorner_rad = 1.75;  ///< A little more than a right angle.
+/// Heading error to the target at which a turn on the spot begins, and at which it is done.
+constexpr double kTurnOnSpotAbove_rad = 0.9;
+constexpr double kTurnOnSpotUntil_rad = 0.05;
 constexpr double kStopReachedWithin_m = 0.05;
 constexpr double kSlowest_m_per_s = 0.05;  ///< Creeps into a stop instead of never arriving.
 constexpr double kProgressWindow_m = 1.0;
@@ -70,10 +72,12 @@ void Driver::update_progress() {
 }
 
 /// Speed and turn rate, as the motion of one second.
-Motion Driver::command() const {
+Motion Driver::command() {
   const Point goal = target();
   const double error_rad = wrap_angle(bearing_rad(pose_.at, goal) - pose_.theta_rad);
-  if (std::abs(error_rad) > kTurnOnSpotAbove_rad) {
+  turns_on_spot_ =
+      std::abs(error_rad) > (turns_on_spot_ ? kTurnOnSpotUntil_rad : kTurnOnSpotAbove_rad);
+  if (turns_on_spot_) {
     return {0.0, std::copysign(options_.turn_speed_rad_per_s, error_rad)};
   }
   // The circle through the robot, tangent to its heading, and the target.
@@ -95,13 +99,12 @@ Motion Driver::advance(double duration_s) {
   }
   const Motion wanted = command();
   const double change_m_per_s = options_.acceleration_m_per_s2 * duration_s;
-  const bool turns_on_spot = wanted.distance_m == 0.0;
-  speed_m_per_s_ = turns_on_spot ? std::max(0.0, speed_m_per_s_ - change_m_per_s)
-                                 : std::clamp(wanted.distance_m, speed_m_per_s_ - change_m_per_s,
-                                              speed_m_per_s_ + change_m_per_s);
+  speed_m_per_s_ = turns_on_spot_ ? std::max(0.0, speed_m_per_s_ - change_m_per_s)
+                                  : std::clamp(wanted.distance_m, speed_m_per_s_ - change_m_per_s,
+                                               speed_m_per_s_ + change_m_per_s);
   Motion motion;
   motion.distance_m = speed_m_per_s_ * duration_s;
-  const double turn_rad_per_s = turns_on_spot ? wanted.turn_rad : wanted.turn_rad * speed_m_per_s_;
+  const double turn_rad_per_s = turns_on_spot_ ? wanted.turn_rad : wanted.turn_rad * speed_m_per_s_;
   motion.turn_rad = duration_s * std::clamp(turn_rad_per_s, -options_.turn_speed_rad_per_s,
                                             options_.turn_speed_rad_per_s);
   pose_ = moved(pose_, motion);

@@ -34,7 +34,7 @@ class Driver {
   void update_progress();
   [[nodiscard]] Point point_at(double along_m) const;
   [[nodiscard]] Point target() const;
-  [[nodiscard]] Motion command() const;
+  [[nodiscard]] Motion command();
 
   std::vector<Point> path_;
   std::vector<double> along_m_;  ///< Length of the path up to each of its points.
@@ -42,6 +42,7 @@ class Driver {
   std::size_t next_stop_ = 0;
   double progress_m_ = 0.0;
   double speed_m_per_s_ = 0.0;
+  bool turns_on_spot_ = false;
   bool has_arrived_ = false;
   Pose pose_;
   DriverOptions options_;

@@ -55,6 +55,9 @@ Point FloorPlan::centre_of(Cell cell) const {
 }
 
 double clearance_m(const FloorPlan& plan, Point point, double limit_m) {
+  if (plan.is_wall(plan.cell_of(point))) {
+    return 0.0;  // Also far outside, where no cell of the plan is near.
+  }
   const Cell low = plan.cell_of({point.x_m - limit_m, point.y_m - limit_m});
   const Cell high = plan.cell_of({point.x_m + limit_m, point.y_m + limit_m});
   double nearest_m = limit_m;

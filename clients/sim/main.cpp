@@ -1,12 +1,16 @@
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <unistd.h>
 
@@ -30,13 +34,9 @@ extern "C" void request_stop(int /*signal*/) {
 }
 
 World world_of(const Arguments& arguments) {
-  if (std::filesystem::path(arguments.world_file).extension() != ".png") {
-    return read_world(arguments.world_file);
-  }
-  if (arguments.tour_file.empty()) {
-    throw BadWorld(arguments.world_file + ": a floor plan in PNG needs --tour-file");
-  }
-  return read_floor_plan(arguments.world_file, arguments.m_per_pixel, arguments.tour_file);
+  return is_picture(arguments)
+             ? read_floor_plan(arguments.world_file, arguments.m_per_pixel, arguments.tour_file)
+             : read_world(arguments.world_file);
 }
 
 double seconds(std::int64_t duration_us) {
@@ -53,21 +53,20 @@ double length_m(const World& world, const Tour& tour) {
 }
 
 void list_tours(const World& world, const Arguments& arguments) {
-  const char* separator = "";
+  const char* before = "[";
   for (const Tour& tour : world.tours) {
     const double drive_s = seconds(duration_of(world, tour, arguments.simulation));
     if (arguments.json) {
-      std::printf("%s{\"tour\":\"%s\",\"length_m\":%.1f,\"duration_s\":%.1f}",
-                  *separator == '\0' ? "[" : separator, tour.name.c_str(), length_m(world, tour),
-                  drive_s);
-      separator = ",";
+      std::printf("%s{\"tour\":\"%s\",\"length_m\":%.1f,\"duration_s\":%.1f}", before,
+                  tour.name.c_str(), length_m(world, tour), drive_s);
+      before = ",";
     } else {
       std::printf("%-16s %7.1f m %7.1f s  %zu waypoints\n", tour.name.c_str(),
                   length_m(world, tour), drive_s, tour.waypoints.size());
     }
   }
   if (arguments.json) {
-    std::puts(*separator == '\0' ? "[]" : "]");
+    std::puts(world.tours.empty() ? "[]" : "]");
   }
 }
 
@@ -105,47 +104,61 @@ std::string stem_of(const std::string& log_file) {
                                     : log_file;
 }
 
+/// Everything that listens to one drive; opened before it begins, so that nothing is driven in
+/// vain.
+class Outputs {
+ public:
+  Outputs(const Arguments& arguments, std::int64_t duration_us) : progress_(duration_us) {
+    const bool is_live = arguments.log_file.empty();
+    const std::int64_t default_start =
+        is_live ? live_start_utime(duration_us, arguments.speed) : kLogStartUtime;
+    const MessageOptions messages = {arguments.laser_channel, arguments.odometry_channel,
+                                     arguments.start_utime.value_or(default_start)};
+    if (is_live) {
+      group_.add(live_.emplace(arguments.lcm_url, messages, arguments.speed, stop_requested));
+    } else {
+      group_.add(log_.emplace(arguments.log_file, messages));
+    }
+    const std::string prefix =
+        arguments.truth_prefix.empty() ? stem_of(arguments.log_file) : arguments.truth_prefix;
+    if (!prefix.empty()) {
+      group_.add(truth_.emplace(prefix, messages.start_utime));
+    }
+    if (shows_progress_) {
+      group_.add(progress_);
+    }
+  }
+
+  Recorder& recorder() { return group_; }
+
+  void close() {
+    if (shows_progress_) {
+      progress_.close();
+    }
+    if (log_) {
+      log_->close();
+    }
+    if (truth_) {
+      truth_->close();
+    }
+  }
+
+ private:
+  std::optional<LogRecorder> log_;
+  std::optional<LiveRecorder> live_;
+  std::optional<TruthRecorder> truth_;
+  ProgressRecorder progress_;
+  bool shows_progress_ = isatty(STDERR_FILENO) == 1;
+  RecorderGroup group_;
+};
+
 void drive(const World& world, const Tour& tour, const Arguments& arguments) {
-  const std::int64_t duration_us = duration_of(world, tour, arguments.simulation);
-  const bool is_live = arguments.log_file.empty();
-  const MessageOptions messages = {
-      arguments.laser_channel, arguments.odometry_channel,
-      arguments.start_utime.value_or(is_live ? live_start_utime(duration_us, arguments.speed)
-                                             : kLogStartUtime)};
-  RecorderGroup group;
-  std::optional<LogRecorder> log;
-  std::optional<LiveRecorder> live;
-  std::optional<TruthRecorder> truth;
-  ProgressRecorder progress(duration_us);
-  if (is_live) {
-    group.add(live.emplace(arguments.lcm_url, messages, arguments.speed, stop_requested));
-  } else {
-    group.add(log.emplace(arguments.log_file, messages));
-  }
-  const std::string truth_prefix = arguments.truth_prefix.empty() && !is_live
-                                       ? stem_of(arguments.log_file)
-                                       : arguments.truth_prefix;
-  if (!truth_prefix.empty()) {
-    group.add(truth.emplace(truth_prefix, messages.start_utime));
-  }
-  const bool shows_progress = isatty(STDERR_FILENO) == 1;
-  if (shows_progress) {
-    group.add(progress);
-  }
-
+  Outputs outputs(arguments, duration_of(world, tour, arguments.simulation));
   const auto begin = std::chrono::steady_clock::now();
-  const DriveReport report = simulate(world, tour, arguments.simulation, stop_requested, group);
+  const DriveReport report =
+      simulate(world, tour, arguments.simulation, stop_requested, outputs.recorder());
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
-
-  if (shows_progress) {
-    progress.close();
-  }
-  if (log) {
-    log->close();
-  }
-  if (truth) {
-    truth->close();
-  }
+  outputs.close();
   print_summary(report, wall.count(), arguments.json);
 }
 

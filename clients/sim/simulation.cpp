@@ -83,9 +83,22 @@ class PassageWatch {
   std::int64_t nearest_us_ = 0;
 };
 
-std::int64_t period_us(double rate_hz) {
-  return std::llround(1e6 / rate_hz);
-}
+/// Says when a sensor's next reading is due.
+class Timer {
+ public:
+  Timer(std::int64_t first_us, double rate_hz)
+      : next_us_(first_us), period_us_(std::llround(1e6 / rate_hz)) {}
+
+  bool is_due(std::int64_t time_us) {
+    const bool is_due = time_us >= next_us_;
+    next_us_ += is_due ? period_us_ : 0;
+    return is_due;
+  }
+
+ private:
+  std::int64_t next_us_;
+  std::int64_t period_us_;
+};
 
 /// The pose in the world that dead reckoning gives, had it begun at the true start.
 Pose reckoned_in_world(const Pose& start, const Pose& T_odom_robot) {
@@ -107,20 +120,18 @@ DriveReport simulate(const World& world,
   Laser laser(options.laser, options.seed);
   Odometer odometer(options.odometer, options.seed);
   PassageWatch watch(world.junctions);
+  Timer odometry_timer(0, options.odometry_rate_hz);
+  Timer sweep_timer(kFirstSweep_us, options.laser_rate_hz);
   DriveReport report;
-  std::int64_t next_odometry_us = 0;
-  std::int64_t next_sweep_us = kFirstSweep_us;
-  std::int64_t time_us = 0;
-  for (; !robot.is_done() && !stop; time_us += kStep_us) {
-    if (time_us >= next_odometry_us) {
+  for (; !robot.is_done() && !stop; report.duration_us += kStep_us) {
+    const std::int64_t time_us = report.duration_us;
+    if (odometry_timer.is_due(time_us)) {
       recorder.record_odometry(time_us, odometer.pose());
-      next_odometry_us += period_us(options.odometry_rate_hz);
     }
-    if (time_us >= next_sweep_us) {
+    if (sweep_timer.is_due(time_us)) {
       recorder.record_sweep(
           time_us, {laser.first_bearing_rad(), laser.bearing_step_rad(), laser.max_range_m(),
                     laser.sweep(world.plan, robot.pose()), robot.pose()});
-      next_sweep_us += period_us(options.laser_rate_hz);
     }
     watch.observe(time_us, robot.pose().at, recorder);
     const Motion motion = robot.advance(time_us);
@@ -129,7 +140,6 @@ DriveReport simulate(const World& world,
   }
   watch.finish(recorder);
   const Pose reckoned = reckoned_in_world(start_of(world, tour), odometer.pose());
-  report.duration_us = time_us;
   report.odometry_error_m = distance_m(reckoned.at, robot.pose().at);
   report.odometry_error_rad = std::abs(wrap_angle(reckoned.theta_rad - robot.pose().theta_rad));
   report.has_arrived = robot.has_arrived();

@@ -44,7 +44,7 @@ inline constexpr double kRobotRadius_m = 0.25;
 /// Reads a drawn world. The text has lines of four kinds, and then the drawing:
 ///
 ///     ; a comment
-///     cell_m 0.25             side of a cell; once, before the drawing
+///     cell_m 0.5              side of a cell; once, before the drawing
 ///     start A 90              where the robot stands and its heading in degrees, counterclockwise
 ///                             from +x; optional
 ///     tour loop A B C A       a walk with straight legs between named points; any number

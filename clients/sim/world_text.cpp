@@ -14,6 +14,12 @@ namespace {
 constexpr std::size_t kMaxSide_cells = 4'000;
 constexpr std::size_t kMaxTourWaypoints = 1'000;
 
+/// Of ASCII, in every locale.
+bool is_letter_or_digit(char symbol) {
+  return (symbol >= 'a' && symbol <= 'z') || (symbol >= 'A' && symbol <= 'Z') ||
+         (symbol >= '0' && symbol <= '9');
+}
+
 struct Line {
   std::size_t number = 0;
   std::string text;
@@ -147,8 +153,7 @@ class WorldParser {
         continue;
       }
       plan_.set_free(cell);
-      const bool is_name = (symbol >= 'a' && symbol <= 'z') || (symbol >= 'A' && symbol <= 'Z') ||
-                           (symbol >= '0' && symbol <= '9');
+      const bool is_name = is_letter_or_digit(symbol);
       if (is_name && !points_.emplace(std::string(1, symbol), plan_.centre_of(cell)).second) {
         fail(line.number, std::string("the name '") + symbol + "' is in the drawing twice");
       }
@@ -172,6 +177,9 @@ class WorldParser {
     std::string word;
     Tour tour;
     words >> word >> tour.name;
+    if (!std::all_of(tour.name.begin(), tour.name.end(), is_letter_or_digit)) {
+      fail(line.number, "expected a tour's name of letters and digits, got '" + tour.name + "'");
+    }
     for (const Tour& other : tours_) {
       if (other.name == tour.name) {
         fail(line.number, "the tour '" + tour.name + "' is there twice");
