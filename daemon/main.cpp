@@ -2,7 +2,7 @@
 
 #include <cstdio>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -63,7 +63,9 @@ Result<DaemonOptions> options_of(const Arguments& arguments) {
     if (!file) {
       return Error{ErrorCode::kNotFound, arguments.config_file + ": cannot be read"};
     }
-    text.assign(std::istreambuf_iterator<char>(file), {});
+    std::ostringstream content;
+    content << file.rdbuf();
+    text = content.str();
   }
   Result<DaemonOptions> options = read_options(text);
   if (!options) {

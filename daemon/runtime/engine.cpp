@@ -72,7 +72,7 @@ void Engine::write_waiting(bool commit) {
   while (appended_ < waiting_.size() && status) {
     status = std::visit([this](const auto& entry) { return map_file_.append(entry); },
                         waiting_[appended_]);
-    appended_ += status ? 1 : 0;
+    appended_ += status ? 1U : 0U;
   }
   if (status && (commit || appended_ >= kCommitAfter)) {
     status = map_file_.commit();

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "runtime/planner.hpp"
 #include "wire/document.hpp"
 #include "wire/signatures.hpp"
 

@@ -25,7 +25,7 @@ double mean_turn(const std::vector<Gateway>& known, const std::vector<Gateway>& 
 /// that the directions count too.
 Pose2 aligned_by_gateways(const std::vector<Gateway>& known, const std::vector<Gateway>& visit,
                           int shift) {
-  constexpr double kOutward_m = 2.0;
+  static constexpr double kOutward_m = 2.0;
   const auto outward = [](const Gateway& gateway) -> Vector2d {
     return gateway.middle + kOutward_m * Vector2d(std::cos(gateway.outward_bearing_rad),
                                                   std::sin(gateway.outward_bearing_rad));
