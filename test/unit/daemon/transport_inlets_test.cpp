@@ -1,0 +1,131 @@
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/message_samples.hpp"
+#include "transport/inlets.hpp"
+#include "wire/signatures.hpp"
+
+namespace cairn {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+using Outcome = Inlets::Outcome;
+
+class InletsTest : public ::testing::Test {
+ protected:
+  template <class Message>
+  Outcome dispatch(const std::string& channel,
+                   const Message& message,
+                   std::optional<TimePoint> now = std::nullopt) {
+    const wire::Bytes bytes = wire::encode(message);
+    return inlets_.dispatch(channel, bytes.data(), bytes.size(), now);
+  }
+  const ChannelCounters& counters(const std::string& channel) {
+    return inlets_.counters().find(channel)->second;
+  }
+
+  std::vector<LaserScan> scans_;
+  std::vector<OdometrySample> odometry_;
+  std::vector<SonarRing> rings_;
+  Inlets inlets_{InletOptions{},
+                 {[this](LaserScan scan) { scans_.push_back(std::move(scan)); },
+                  [this](OdometrySample sample) { odometry_.push_back(sample); },
+                  [this](SonarRing ring) { rings_.push_back(std::move(ring)); }}};
+};
+
+TEST_F(InletsTest, MessagesGoWhereTheirChannelBelongs) {
+  EXPECT_EQ(dispatch("LASER", test::sample<cairn_lcm::laser_scan_t>()), Outcome::kAccepted);
+  EXPECT_EQ(dispatch("LIDAR", test::sample<mbot_lcm_msgs::lidar_t>()), Outcome::kAccepted);
+  cairn_lcm::odometry_t odometry{};
+  odometry.utime = 1;
+  EXPECT_EQ(dispatch("ODOMETRY", odometry), Outcome::kAccepted);
+  EXPECT_EQ(dispatch("SONAR", test::sample<cairn_lcm::sonar_ring_t>()), Outcome::kAccepted);
+  EXPECT_THAT(scans_, SizeIs(2));
+  EXPECT_THAT(odometry_, SizeIs(1));
+  EXPECT_THAT(rings_, SizeIs(1));
+  EXPECT_EQ(counters("LASER").accepted, 1);
+  EXPECT_THAT(inlets_.take_remarks(), IsEmpty());
+}
+
+TEST_F(InletsTest, OtherChannelsAreNotOurs) {
+  EXPECT_EQ(dispatch("CAMERA", test::sample<cairn_lcm::laser_scan_t>()), Outcome::kNotOurs);
+  EXPECT_THAT(scans_, IsEmpty());
+}
+
+TEST_F(InletsTest, BadMessagesAreCountedByWhatIsWrong) {
+  const wire::Bytes garbage = {0xDE, 0xAD, 0xBE, 0xEF};
+  EXPECT_EQ(inlets_.dispatch("LASER", garbage.data(), garbage.size()), Outcome::kMalformed);
+  auto scan = test::sample<cairn_lcm::laser_scan_t>();
+  scan.utime = -1;
+  EXPECT_EQ(dispatch("LASER", scan), Outcome::kRefused);
+  EXPECT_EQ(dispatch("LASER", test::sample<cairn_lcm::pose_t>()), Outcome::kUnknownType);
+  EXPECT_EQ(counters("LASER").malformed, 1);
+  EXPECT_EQ(counters("LASER").refused, 1);
+  EXPECT_EQ(counters("LASER").unknown_type, 1);
+  EXPECT_EQ(counters("LASER").accepted, 0);
+  EXPECT_THAT(counters("LASER").last_refusal, HasSubstr("unknown type"));
+}
+
+TEST_F(InletsTest, AnUnknownTypeIsNamedOnce) {
+  for (int i = 0; i < 5; ++i) {
+    dispatch("LASER", test::sample<cairn_lcm::pose_t>());
+  }
+  EXPECT_THAT(inlets_.take_remarks(), ElementsAre(HasSubstr("LASER: message of unknown type 0x")));
+  dispatch("LASER", test::sample<cairn_lcm::pose_t>());
+  EXPECT_THAT(inlets_.take_remarks(), IsEmpty());
+}
+
+TEST_F(InletsTest, ASenderThatMakesUpTypesDoesNotFillTheMemory) {
+  for (std::uint32_t i = 0; i < 10'000; ++i) {
+    wire::Bytes bytes(16, 0xAB);
+    for (std::size_t k = 0; k < 4; ++k) {
+      bytes[k] = static_cast<std::uint8_t>(i >> (8 * k));
+    }
+    inlets_.dispatch("LASER", bytes.data(), bytes.size());
+  }
+  EXPECT_LE(inlets_.take_remarks().size(), 100U);
+  EXPECT_EQ(counters("LASER").unknown_type, 10'000);
+}
+
+TEST_F(InletsTest, StampsAheadOfTheClockAreRefusedOnlyWhenThereIsAClock) {
+  auto scan = test::sample<cairn_lcm::laser_scan_t>();
+  scan.utime = 10'000'000;
+  EXPECT_EQ(dispatch("LASER", scan, time_of_utime(8'999'999)), Outcome::kRefused);
+  EXPECT_EQ(counters("LASER").in_future, 1);
+  EXPECT_EQ(dispatch("LASER", scan, time_of_utime(9'000'000)), Outcome::kAccepted);
+  EXPECT_EQ(dispatch("LASER", scan), Outcome::kAccepted);
+}
+
+TEST_F(InletsTest, TheLiveBusTakesTheSameWay) {
+  wire::Expected<std::unique_ptr<wire::Bus>> bus = wire::Bus::open("memq://");
+  ASSERT_TRUE(bus.ok());
+  ASSERT_TRUE(inlets_.subscribe(**bus, [] { return time_of_utime(2'000'000); }).ok());
+  (*bus)->publish("LASER", test::sample<cairn_lcm::laser_scan_t>());
+  (*bus)->publish("CAMERA", test::sample<cairn_lcm::laser_scan_t>());
+  (*bus)->publish("LASER", wire::Bytes{1, 2, 3});
+  while ((*bus)->handle(0) > 0) {
+  }
+  EXPECT_THAT(scans_, SizeIs(1));
+  EXPECT_EQ(counters("LASER").malformed, 1);
+  EXPECT_EQ((*bus)->failed_handlers(), 0U);
+}
+
+TEST(InletOptions, ChannelsAreNamedOnceOnly) {
+  InletOptions options;
+  EXPECT_TRUE(validate(options).ok());
+  options.odometry_channels.emplace_back("LASER");
+  EXPECT_THAT(validate(options).error().message, HasSubstr("once only"));
+  options = {};
+  options.lasers.clear();
+  EXPECT_THAT(validate(options).error().message, HasSubstr("at least one"));
+}
+
+}  // namespace
+}  // namespace cairn
