@@ -29,7 +29,7 @@ Vector3d difference(const Pose2& a, const Pose2& b) {
 
 /// Squares of the returns around a pose; headings turn about the robot.
 void add_returns(const DistanceField& walls,
-                 const std::vector<Vector2d>& p_robot,
+                 const std::vector<SurfacePoint>& points,
                  const Pose2& pose,
                  const RefinementOptions& options,
                  NormalEquations* sum) {
@@ -40,8 +40,14 @@ void add_returns(const DistanceField& walls,
   const double far_m = walls.geometry().cell_m * DistanceField::kReachCells;
   const double far_loss = std::log1p(far_m * far_m / (scale_m * scale_m));
   double loss = 0.0;
-  for (const Vector2d& p : p_robot) {
-    const Vector2d turned(c * p.x() - s * p.y(), s * p.x() + c * p.y());
+  const auto turned_by_pose = [c, s](const Vector2d& v) {
+    return Vector2d(c * v.x() - s * v.y(), s * v.x() + c * v.y());
+  };
+  const auto jacobian_along = [](const Vector2d& way, const Vector2d& at) {
+    return Vector3d(way.x(), way.y(), way.y() * at.x() - way.x() * at.y());
+  };
+  for (const SurfacePoint& point : points) {
+    const Vector2d turned = turned_by_pose(point.p);
     const DistanceField::Sample wall = walls.sample(pose.translation() + turned);
     if (!wall.is_near) {
       loss += far_loss;
@@ -50,24 +56,25 @@ void add_returns(const DistanceField& walls,
     const double share = wall.distance_m * wall.distance_m / (scale_m * scale_m);
     loss += std::log1p(share);
     const double robust = 1.0 / (1.0 + share);
-    const Vector3d jacobian(wall.gradient.x(), wall.gradient.y(),
-                            wall.gradient.y() * turned.x() - wall.gradient.x() * turned.y());
-    sum->information.noalias() += robust * jacobian * jacobian.transpose();
+    const Vector3d jacobian = jacobian_along(wall.gradient, turned);
+    sum->hessian.noalias() += robust * jacobian * jacobian.transpose();
     sum->gradient += robust * wall.distance_m * jacobian;
+    const Vector3d across = jacobian_along(turned_by_pose(point.normal), turned);
+    sum->information.noalias() += robust * across * across.transpose();
   }
+  sum->hessian *= weight;
   sum->information *= weight;
   sum->gradient *= weight;
-  sum->hessian += sum->information;
   sum->cost += 0.5 * weight * scale_m * scale_m * loss;
 }
 
 NormalEquations equations_at(const DistanceField& walls,
-                             const std::vector<Vector2d>& p_robot,
+                             const std::vector<SurfacePoint>& points,
                              const GaussianPose& prior,
                              const Pose2& pose,
                              const RefinementOptions& options) {
   NormalEquations sum;
-  add_returns(walls, p_robot, pose, options, &sum);
+  add_returns(walls, points, pose, options, &sum);
   const Matrix3d information = prior.covariance.inverse();
   const Vector3d deviation = difference(pose, prior.mean);
   sum.hessian += information;
@@ -79,12 +86,12 @@ NormalEquations equations_at(const DistanceField& walls,
 }  // namespace
 
 Refinement refine(const DistanceField& walls,
-                  const std::vector<Vector2d>& p_robot,
+                  const std::vector<SurfacePoint>& points,
                   const GaussianPose& prior,
                   const Pose2& start,
                   const RefinementOptions& options) {
   Pose2 pose = start;
-  NormalEquations here = equations_at(walls, p_robot, prior, pose, options);
+  NormalEquations here = equations_at(walls, points, prior, pose, options);
   double damping = 0.0;
   for (int step = 0; step < kMaxSteps && damping < kMaxDamping; ++step) {
     Matrix3d damped = here.hessian;
@@ -94,7 +101,7 @@ Refinement refine(const DistanceField& walls,
       break;
     }
     const Pose2 next(pose.x() + move.x(), pose.y() + move.y(), pose.theta() + move.z());
-    const NormalEquations there = equations_at(walls, p_robot, prior, next, options);
+    const NormalEquations there = equations_at(walls, points, prior, next, options);
     if (there.cost > here.cost) {
       damping = damping == 0.0 ? 1.0 : 8.0 * damping;
       continue;
