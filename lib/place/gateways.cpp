@@ -53,8 +53,10 @@ double seen_beyond_m(const MedialAxis& axis,
   const AxisNode& end = axis.nodes[way.forward ? edge.to : edge.from];
   const double along_m = length_m(edge, index_on_edge(axis, way, position),
                                   index_on_edge(axis, way, edge.cells.size() - 1), cell_m);
-  const bool goes_on = end.end == AxisEnd::kMeets || end.end == AxisEnd::kBorder;
-  return along_m + end.clearance_m + (goes_on ? options.seen_beyond_m : 0.0);
+  if (end.end == AxisEnd::kBorder) {
+    return along_m;
+  }
+  return along_m + end.clearance_m + (end.end == AxisEnd::kMeets ? options.seen_beyond_m : 0.0);
 }
 
 double bearing_beyond(const LocalView& view,
