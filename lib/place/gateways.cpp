@@ -13,7 +13,7 @@ namespace {
 /// A constriction is looked for a little beyond where clearance has come down to about its level.
 constexpr double kRefine_m = 0.4;
 /// The direction of a way is taken over this stretch beyond the gateway.
-constexpr double kDirection_m = 1.0;
+constexpr double kDirection_m = 1.5;
 
 /// Where the way has come by some travel from a position on, or its end.
 std::size_t position_after(
