@@ -13,7 +13,7 @@ namespace {
 /// A constriction is looked for a little beyond where clearance has come down to about its level.
 constexpr double kRefine_m = 0.4;
 /// The direction of a way is taken over this stretch beyond the gateway.
-constexpr double kDirection_m = 1.0;
+constexpr double kDirection_m = 1.5;
 
 /// Where the way has come by some travel from a position on, or its end.
 std::size_t position_after(
@@ -53,8 +53,10 @@ double seen_beyond_m(const MedialAxis& axis,
   const AxisNode& end = axis.nodes[way.forward ? edge.to : edge.from];
   const double along_m = length_m(edge, index_on_edge(axis, way, position),
                                   index_on_edge(axis, way, edge.cells.size() - 1), cell_m);
-  const bool goes_on = end.end == AxisEnd::kMeets || end.end == AxisEnd::kBorder;
-  return along_m + end.clearance_m + (goes_on ? options.seen_beyond_m : 0.0);
+  if (end.end == AxisEnd::kBorder) {
+    return along_m;
+  }
+  return along_m + end.clearance_m + (end.end == AxisEnd::kMeets ? options.seen_beyond_m : 0.0);
 }
 
 double bearing_beyond(const LocalView& view,

@@ -38,6 +38,14 @@ Vector2d center_of(const LocalView& view, const AxisSite& site) {
   return sum / count;
 }
 
+bool is_near_node(const LocalView& view, const AxisSite& site) {
+  return std::any_of(site.nodes.begin(), site.nodes.end(), [&](std::size_t n) {
+    const AxisNode& node = view.axis.nodes[n];
+    const double cells = std::hypot(view.robot.x - node.cell.x, view.robot.y - node.cell.y);
+    return cells * view.grid.geometry().cell_m <= node.clearance_m;
+  });
+}
+
 /// A place lets the robot choose, turn, or return.
 bool is_place(const std::vector<Gateway>& gateways, const PlaceOptions& options) {
   if (gateways.size() != 2) {
@@ -67,7 +75,8 @@ PlaceNeighbourhood neighbourhood_of(const LocalView& view,
   place.is_complete = is_decided && region.is_complete;
   place.radius_m = region.radius_m;
   place.distinctiveness = region.distinctiveness;
-  place.contains_robot = region.contains_robot;
+  // With a way still undecided the region has no bound there; only the meeting point counts then.
+  place.contains_robot = is_decided ? region.contains_robot : is_near_node(view, site);
   return place;
 }
 

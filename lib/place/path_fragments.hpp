@@ -10,7 +10,8 @@ namespace cairn {
 struct PathFragment {
   int gateway = -1;  ///< Through which its + direction leaves.
   int through = -1;  ///< Through which its - direction leaves; -1 where it terminates at the place.
-  /// Whether a terminated end is blocked, rather than without a clear default continuation.
+  /// Of a terminated end: the straight way inward is blocked by a wall, rather than that there is
+  /// no clear default continuation.
   bool is_dead_end = true;
   friend bool operator==(const PathFragment&, const PathFragment&) = default;
 };
@@ -27,9 +28,10 @@ using ContinuationRule = std::vector<PathFragment> (*)(const std::vector<Gateway
 
 /// Two gateways belong to one path when, after arrival at one in the inbound direction, the clear
 /// unique default travel continuation is the other in the outbound direction, and the other way
-/// round. Clear: the robot turns by less than `max_turn_rad`. Unique: no other gateway would ask
-/// for a similar turn. The rule looks at directions only, as these repeat from visit to visit
-/// better than any length.
+/// round. Clear: on the straight way from one gateway to the other the robot turns by less than
+/// `max_turn_rad`, when it sets out, when it arrives, and in all; so what is offset sideways is no
+/// continuation. Unique: no other gateway would ask for a similar turn. Nothing but directions is
+/// compared, as these repeat from visit to visit better than lengths.
 ///
 /// Gateways in clockwise order; fragments come in the order of their first gateway.
 [[nodiscard]] std::vector<PathFragment> mutual_straight_continuations(

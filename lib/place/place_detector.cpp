@@ -14,6 +14,8 @@ constexpr double kWayBefore_m = 4.0;
 /// A turn on the spot shows something new, too.
 constexpr double kLookAfterTurn_rad = 0.5;
 constexpr double kPoseSpacing_m = 0.05;
+/// The centre of a wide place moves more from reading to reading, up to this.
+constexpr double kMaxSameSpot_m = 1.5;
 
 double distance_between(const StampedPose& a, const StampedPose& b) {
   return (a.T_lpm_robot.translation() - b.T_lpm_robot.translation()).norm();
@@ -95,8 +97,11 @@ void PlaceDetector::look(const StampedPose& now,
   around_ = find_places(grid, now.T_lpm_robot.translation(), options_);
   const PlaceNeighbourhood* const here = place_with_robot(around_);
   if (stay_) {
-    const double within_m = std::max(options_.same_spot_m, 0.5 * stay_->best().radius_m);
-    const PlaceNeighbourhood* const same = place_near(around_, stay_->best().center, within_m);
+    // As long as nothing complete was seen, the place is whatever is read around the robot.
+    const PlaceNeighbourhood* const same =
+        stay_->is_complete() || here == nullptr
+            ? place_near(around_, stay_->best().center, same_spot_m(stay_->best()))
+            : here;
     if (same != nullptr) {
       stay_->add_reading(*same);
     }
@@ -123,21 +128,31 @@ void PlaceDetector::look(const StampedPose& now,
 }
 
 void PlaceDetector::open_stay(const StampedPose& now, const PlaceNeighbourhood& reading) {
-  const bool is_same_spot =
-      waiting_ && (waiting_->best().center - reading.center).norm() < options_.same_spot_m;
-  const int entrance = is_same_spot ? waiting_->gateway_entered_by(way_) : -1;
-  if (is_same_spot && (entrance < 0 || entrance == waiting_->departure())) {
-    report_.turn_arounds += entrance < 0 ? 0 : 1;
-    stay_ = std::move(waiting_);
-    waiting_.reset();
-    stay_->reopen(way_);
-  } else {
-    stay_.emplace(now, way_, report_.looks > 1);
-    is_announced_ = false;
-    confirmed_.clear();
-  }
+  stay_.emplace(now, way_, report_.looks > 1);
   stay_->add_reading(reading);
+  is_announced_ = false;
   way_.clear();
+}
+
+bool PlaceDetector::has_come_back() const {
+  if (!waiting_ ||
+      (waiting_->best().center - stay_->best().center).norm() >= same_spot_m(waiting_->best())) {
+    return false;
+  }
+  const int entrance = waiting_->gateway_entered_by(stay_->way());
+  return entrance < 0 || entrance == waiting_->departure();
+}
+
+void PlaceDetector::take_up_again() {
+  report_.turn_arounds += waiting_->gateway_entered_by(stay_->way()) < 0 ? 0 : 1;
+  waiting_->continue_with(*stay_);
+  stay_ = std::move(waiting_);
+  waiting_.reset();
+  is_announced_ = true;
+}
+
+double PlaceDetector::same_spot_m(const PlaceNeighbourhood& place) const {
+  return std::max(options_.same_spot_m, std::min(0.5 * place.radius_m, kMaxSameSpot_m));
 }
 
 void PlaceDetector::close_stay(const OccupancyGrid& grid) {
@@ -164,12 +179,16 @@ void PlaceDetector::announce(const StampedPose& now, std::vector<PlaceEvent>* ev
   if (!stay_->is_complete()) {
     return;
   }
+  if (!is_announced_ && has_come_back()) {
+    take_up_again();
+  }
   const PlaceNeighbourhood& place = stay_->best();
   if (!is_announced_) {
     if (waiting_) {
       release_waiting(events);
     }
     is_announced_ = true;
+    confirmed_.clear();
     events->push_back(
         {PlaceEventKind::kEntered, stay_->entered(), place.center, std::nullopt, std::nullopt});
   }

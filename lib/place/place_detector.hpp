@@ -67,6 +67,10 @@ class PlaceDetector {
   void look(const StampedPose& now, const OccupancyGrid& grid, std::vector<PlaceEvent>* events);
   void open_stay(const StampedPose& now, const PlaceNeighbourhood& reading);
   void close_stay(const OccupancyGrid& grid);
+  /// Whether the stay is at the place that was left last, and the robot did not come around to it.
+  [[nodiscard]] bool has_come_back() const;
+  void take_up_again();
+  [[nodiscard]] double same_spot_m(const PlaceNeighbourhood& place) const;
   void announce(const StampedPose& now, std::vector<PlaceEvent>* events);
   void release_waiting(std::vector<PlaceEvent>* events);
 

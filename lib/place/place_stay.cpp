@@ -215,9 +215,15 @@ void PlaceStay::keep_map(const OccupancyGrid& grid, double crop_margin_m) {
   crop_ = cropped(grid, low - margin, high + margin, origin);
 }
 
-void PlaceStay::reopen(const std::vector<StampedPose>& way_back) {
+void PlaceStay::continue_with(const PlaceStay& later) {
   departure_ = -1;
-  way_.insert(way_.end(), way_back.begin(), way_back.end());
+  way_.insert(way_.end(), later.way_.begin(), later.way_.end());
+  for (const Group& group : later.groups_) {
+    for (int i = 0; i < group.count; ++i) {
+      add_reading(group.latest);
+    }
+  }
+  last_reading_ = later.last_reading_;
 }
 
 PlaceVisit PlaceStay::visit() const {

@@ -65,9 +65,10 @@ class PlaceStay {
   void keep_map(const OccupancyGrid& grid, double crop_margin_m);
   /// Ends the stay: the robot is outside.
   void leave();
-  /// Takes the stay up again after a turn-around.
-  void reopen(const std::vector<StampedPose>& way_back);
+  /// Takes the stay up again that another one, at the same place, turned out to continue.
+  void continue_with(const PlaceStay& later);
 
+  [[nodiscard]] const std::vector<StampedPose>& way() const { return way_; }
   /// The last metres of the way.
   [[nodiscard]] std::vector<StampedPose> last_of_way(double keep_m) const;
 

@@ -18,8 +18,10 @@ class DrawnWorld {
   DrawnWorld(const std::vector<std::string>& lines, double character_m, unsigned seed)
       : lines_(lines), character_m_(character_m) {
     geometry_.cell_m = kCell_m;
-    geometry_.width = static_cast<int>(std::lround(lines.front().size() * character_m / kCell_m));
-    geometry_.height = static_cast<int>(std::lround(lines.size() * character_m / kCell_m));
+    geometry_.width = static_cast<int>(
+        std::lround(static_cast<double>(lines.front().size()) * character_m / kCell_m));
+    geometry_.height =
+        static_cast<int>(std::lround(static_cast<double>(lines.size()) * character_m / kCell_m));
     solid_.resize(geometry_.cell_count());
     for (int y = 0; y < geometry_.height; ++y) {
       for (int x = 0; x < geometry_.width; ++x) {
@@ -40,7 +42,8 @@ class DrawnWorld {
     for (std::size_t line = 0; line < lines_.size(); ++line) {
       const std::size_t column = lines_[line].find(mark);
       if (column != std::string::npos) {
-        return {(column + 0.5) * character_m_, (lines_.size() - line - 0.5) * character_m_};
+        return {(static_cast<double>(column) + 0.5) * character_m_,
+                (static_cast<double>(lines_.size() - line) - 0.5) * character_m_};
       }
     }
     return Vector2d::Zero();
@@ -49,7 +52,8 @@ class DrawnWorld {
   /// An empty map of the whole building.
   [[nodiscard]] OccupancyGrid empty_map() const { return OccupancyGrid(geometry_); }
 
-  /// What a perfect laser in this pose adds to a map: free cells along each beam, a wall at its end.
+  /// What a perfect laser in this pose adds to a map: free cells along each beam, a wall at its
+  /// end.
   void look(const Pose2& T_world_laser, double field_rad, OccupancyGrid* map) const {
     constexpr int kBeams = 361;
     constexpr double kRange_m = 20.0;
@@ -101,7 +105,9 @@ class DrawnWorld {
     solid_ = rough;
   }
 
-  void cast(const Vector2d& from, const Vector2d& direction, double range_m,
+  void cast(const Vector2d& from,
+            const Vector2d& direction,
+            double range_m,
             OccupancyGrid* map) const {
     for (double r = 0.0; r < range_m; r += 0.5 * kCell_m) {
       const Cell c = geometry_.cell_at(from + r * direction);
