@@ -98,7 +98,7 @@ Colour path_colour(std::int64_t path_id) {
   const auto channel = [hue](double offset) {
     const double distance = std::abs(std::remainder(hue - offset, 6.0));
     const double saturated = std::clamp(2.0 - distance, 0.0, 1.0);
-    return static_cast<std::uint8_t>(std::lround(255.0 * (0.16 + 0.62 * saturated)));
+    return static_cast<std::uint8_t>(std::lround(255.0 * (0.20 + 0.50 * saturated)));
   };
   return {channel(0.0), channel(2.0), channel(4.0)};
 }
