@@ -194,6 +194,12 @@ int Bus::handle(int timeout_ms, int max_messages) {
   return handled;
 }
 
+bool Bus::reconnect() {
+  // Publishing connects again, and repeats the subscriptions; lcm_handle would, too, but then waits
+  // for a message. Nobody listens to LCM's own channel of self tests.
+  return fileno() >= 0 || (publish("LCM_SELF_TEST", Bytes{0}) && fileno() >= 0);
+}
+
 int Bus::fileno() {
   return lcm_get_fileno(lcm_);
 }

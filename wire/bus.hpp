@@ -69,6 +69,11 @@ class Bus {
   /// @return messages handled, 0 when there were none in time, -1 when the connection is gone
   int handle(int timeout_ms, int max_messages = 64);
 
+  /// Tries to get a lost connection back, which happens when the hub of tcpq ends. LCM writes a
+  /// line to stderr each time, so once a second is often enough.
+  /// @return whether the bus is connected now
+  bool reconnect();
+
   /// To be polled for reading; ask each time, since a reconnection changes it. -1: not connected.
   [[nodiscard]] int fileno();
   [[nodiscard]] const std::string& url() const { return url_; }

@@ -17,12 +17,12 @@ struct ScrollingMapOptions {
 
 /// How far dead reckoning is believed between two scans: one standard deviation.
 struct MotionModelOptions {
-  double drive_noise_m_per_m = 0.10;     ///< [0, 1]
-  double slide_noise_m_per_m = 0.05;     ///< Sideways. [0, 1]
-  double turn_noise_rad_per_rad = 0.15;  ///< [0, 1]
-  double turn_noise_rad_per_m = 0.05;    ///< [0, 1]
-  double drive_noise_m = 0.01;           ///< Per scan, even at rest. > 0
-  double turn_noise_rad = 0.005;         ///< Per scan, even at rest. > 0
+  double drive_noise_m_per_m = 0.30;     ///< [0, 1]
+  double slide_noise_m_per_m = 0.30;     ///< Sideways. [0, 1]
+  double turn_noise_rad_per_rad = 0.30;  ///< [0, 1]
+  double turn_noise_rad_per_m = 0.20;    ///< [0, 1]
+  double drive_noise_m = 0.10;           ///< Per scan, even at rest. > 0
+  double turn_noise_rad = 0.02;          ///< Per scan, even at rest. > 0
   double max_speed_m_per_s = 3.0;        ///< Faster odometry is not believed. > 0
   double max_turn_rate_rad_per_s = 6.0;  ///< Faster odometry is not believed. > 0
 };

@@ -7,9 +7,9 @@ namespace cairn {
 namespace {
 
 constexpr double kOnWallInSigmas = 2.5;
-constexpr double kCertain_m = 0.10;  // sigma up to which the prediction is good to start from
-constexpr double kCertain_rad = 0.10;
-constexpr double kGoodScore = 0.75;  // a match that leaves no wish for a search
+constexpr double kCertain_m = 0.25;  // sigma up to which the prediction is good to start from
+constexpr double kCertain_rad = 0.20;
+constexpr double kGoodScore = 0.85;  // a match that leaves no wish for a search
 constexpr double kWindowInSigmas = 3.0;
 constexpr double kSearchSigma_m = 0.10;  // of the likelihood on the raster
 constexpr std::size_t kSearchReturns = 150;

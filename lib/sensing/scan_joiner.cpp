@@ -78,12 +78,11 @@ void ScanJoiner::add(LaserScan scan) {
     }
     newest_scan_.reset();
   }
-  if (newest_scan_ && scan.time <= *newest_scan_) {
-    ++counters_.out_of_order;
-  }
+  const bool steps_back = newest_scan_ && scan.time <= *newest_scan_;
+  counters_.out_of_order += steps_back ? 1 : 0;
   newest_scan_ = std::max(newest_scan_.value_or(scan.time), scan.time);
   last_scan_ = scan;
-  waiting_.push_back(std::move(scan));
+  waiting_.push_back({std::move(scan), steps_back, end_arrival()});
   release_ready();
 }
 
@@ -102,11 +101,15 @@ void ScanJoiner::flush() {
 
 void ScanJoiner::release_ready() {
   while (!waiting_.empty()) {
-    const TimePoint time = waiting_.front().time;
-    if (const auto arrival = find_sample_at_or_after(time)) {
-      release_front(joined(time, *arrival));
-    } else if (seconds_between(time, *newest_scan_) >= options_.patience_s ||
-               waiting_.size() > kMaxWaitingScans) {
+    const Waiting& front = waiting_.front();
+    const TimePoint time = front.scan.time;
+    const auto later = front.steps_back ? std::nullopt : find_later_sample(time);
+    if (const auto own = take_own_sample(time)) {
+      release_front(own);
+    } else if (later) {
+      cursor_ = *later;
+      release_front(joined(time, *later));
+    } else if (has_waited_long()) {
       release_front(extrapolated(time));
     } else {
       return;
@@ -118,14 +121,16 @@ void ScanJoiner::release_front(std::optional<Pose2> T_odom_robot) {
   if (!T_odom_robot) {
     ++counters_.scans_without_odometry;
   }
-  ready_.push_back({std::move(waiting_.front()), T_odom_robot});
+  ready_.push_back({std::move(waiting_.front().scan), T_odom_robot});
   waiting_.pop_front();
 }
 
 void ScanJoiner::release_all() {
   release_ready();
   while (!waiting_.empty()) {
-    release_front(extrapolated(waiting_.front().time));
+    const TimePoint time = waiting_.front().scan.time;
+    const auto own = take_own_sample(time);
+    release_front(own ? own : extrapolated(time));
   }
 }
 
@@ -157,9 +162,36 @@ void ScanJoiner::count_clock_step(std::optional<TimePoint> newest_of_other, Time
   }
 }
 
-std::optional<std::uint64_t> ScanJoiner::find_sample_at_or_after(TimePoint time) const {
+bool ScanJoiner::has_waited_long() const {
+  if (waiting_.size() > kMaxWaitingScans) {
+    return true;
+  }
+  const Waiting& front = waiting_.front();
+  const auto is_long_after = [&](TimePoint time) {
+    return seconds_between(front.scan.time, time) >= options_.patience_s;
+  };
+  for (std::uint64_t i = std::max(front.came_before, first_arrival_); i < end_arrival(); ++i) {
+    if (is_long_after(sample(i).time)) {
+      return true;
+    }
+  }
+  return std::any_of(waiting_.begin() + 1, waiting_.end(),
+                     [&](const Waiting& other) { return is_long_after(other.scan.time); });
+}
+
+std::optional<Pose2> ScanJoiner::take_own_sample(TimePoint time) {
   for (std::uint64_t i = std::max(cursor_, first_arrival_); i < end_arrival(); ++i) {
-    if (sample(i).time >= time) {
+    if (sample(i).time == time) {
+      cursor_ = i + 1;  // the next scan of the same stamp has a sample of its own
+      return sample(i).T_odom_robot;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::uint64_t> ScanJoiner::find_later_sample(TimePoint time) const {
+  for (std::uint64_t i = std::max(cursor_, first_arrival_); i < end_arrival(); ++i) {
+    if (sample(i).time > time) {
       return i;
     }
   }
@@ -167,13 +199,8 @@ std::optional<std::uint64_t> ScanJoiner::find_sample_at_or_after(TimePoint time)
 }
 
 std::optional<Pose2> ScanJoiner::joined(TimePoint time, std::uint64_t last_arrival) {
-  cursor_ = last_arrival;
-  // The latest that fits: an earlier one belongs to the time before a step back.
   for (std::uint64_t i = last_arrival + 1; i-- > first_arrival_;) {
     if (sample(i).time == time) {
-      if (i == last_arrival) {
-        ++cursor_;  // taken: the next scan of the same stamp has a sample of its own
-      }
       return sample(i).T_odom_robot;
     }
   }

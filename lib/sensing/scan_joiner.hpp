@@ -43,9 +43,11 @@ struct JoinerCounters {
 /// Where later scans show that `patience_s` have passed meanwhile, odometry is extrapolated from
 /// the last two samples if they are not older than that, else the scan goes without.
 ///
-/// Stamps may step back, as those of recorded logs do: samples are kept in the order of arrival,
-/// and a scan prefers samples that came after the one its predecessor was joined with. So the
-/// result does not depend on how the two streams interleave, within the patience.
+/// Stamps may step back, as those of recorded logs do. Samples are kept in the order of arrival,
+/// and a scan takes the first of exactly its stamp that came after the sample its predecessor took,
+/// so that it gets its own where stamps repeat. A scan whose stamp steps back waits for that. So
+/// the result does not depend on how long scans lag behind odometry, nor, while stamps grow, on how
+/// the two streams interleave within the patience.
 ///
 /// Memory is bounded by `history_s` and, against floods of equal stamps, by fixed capacities.
 class ScanJoiner {
@@ -65,6 +67,12 @@ class ScanJoiner {
   [[nodiscard]] const JoinerCounters& counters() const { return counters_; }
 
  private:
+  struct Waiting {
+    LaserScan scan;
+    bool steps_back = false;        // stamped at or before an earlier scan
+    std::uint64_t came_before = 0;  // arrival number of the next sample
+  };
+
   void release_ready();
   void release_front(std::optional<Pose2> T_odom_robot);
   void release_all();
@@ -72,7 +80,9 @@ class ScanJoiner {
   [[nodiscard]] bool is_duplicate(const LaserScan& scan) const;
   [[nodiscard]] bool is_clock_step(std::optional<TimePoint> newest, TimePoint time) const;
   void count_clock_step(std::optional<TimePoint> newest_of_other, TimePoint time);
-  [[nodiscard]] std::optional<std::uint64_t> find_sample_at_or_after(TimePoint time) const;
+  [[nodiscard]] bool has_waited_long() const;
+  [[nodiscard]] std::optional<Pose2> take_own_sample(TimePoint time);
+  [[nodiscard]] std::optional<std::uint64_t> find_later_sample(TimePoint time) const;
   [[nodiscard]] std::optional<Pose2> joined(TimePoint time, std::uint64_t last_arrival);
   [[nodiscard]] std::optional<Pose2> extrapolated(TimePoint time);
   [[nodiscard]] const OdometrySample& sample(std::uint64_t arrival) const;
@@ -83,7 +93,7 @@ class ScanJoiner {
   std::deque<OdometrySample> odometry_;  // in the order of arrival
   std::uint64_t first_arrival_ = 0;      // arrival number of odometry_.front()
   std::uint64_t cursor_ = 0;             // samples before it belong to earlier scans
-  std::deque<LaserScan> waiting_;
+  std::deque<Waiting> waiting_;
   std::deque<JoinedScan> ready_;
   std::optional<TimePoint> newest_odometry_;
   std::optional<TimePoint> newest_scan_;
