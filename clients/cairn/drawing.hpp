@@ -27,7 +27,8 @@ struct MapLayers {
 /// Part of the global frame that is shown, and its scale.
 class Viewport {
  public:
-  /// Fits everything that is finite and within 1000 km of the origin, with a margin.
+  /// Fits everything that is finite and within 1000 km of the origin, with a margin; of the grid
+  /// the part that is more than stray beams.
   Viewport(const MapLayers& layers, int longest_side_pixels);
 
   [[nodiscard]] PixelPoint pixel(double x_m, double y_m) const {
@@ -59,7 +60,7 @@ class Viewport {
 inline constexpr Colour kPlaceColour{201, 62, 20};
 inline constexpr Colour kGatewayColour{30, 130, 60};
 inline constexpr Colour kPendingColour{200, 30, 120};
-inline constexpr Colour kTrajectoryColour{60, 110, 190};
+inline constexpr Colour kTrajectoryColour{95, 105, 120};
 inline constexpr Colour kInkColour{40, 44, 52};
 
 /// The course of a path segment in the global frame: out of one place by its gateway, into the

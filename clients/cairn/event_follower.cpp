@@ -7,8 +7,8 @@ namespace {
 
 constexpr std::size_t kMostEarly = 4'096;
 constexpr std::int64_t kFirstAskUs = 100'000;  // Reordered ones come by themselves.
-constexpr std::int64_t kAskEveryUs = 500'000;
-constexpr int kTries = 6;
+constexpr std::int64_t kAskEveryUs = 250'000;
+constexpr int kTries = 5;
 
 }  // namespace
 

@@ -99,7 +99,7 @@ void draw_segments(Canvas& canvas, const Viewport& view, const cairn_lcm::topolo
       course.push_back(view.pixel(point.x_m, point.y_m));
     }
     const Colour colour = path_colour(path_of(topology, segment));
-    canvas.polyline(course, {.colour = colour, .width_pixels = 3.5, .opacity = 0.9});
+    canvas.polyline(course, {.colour = colour, .width_pixels = 3.5});
   }
 }
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kFarthestM = 1e6;
 constexpr double kMostPixelsPerM = 200.0;
+constexpr double kLeastKnownM = 0.6;
 
 struct Extent {
   double left_m = std::numeric_limits<double>::infinity();
@@ -28,13 +29,47 @@ struct Extent {
   }
 };
 
+/// First and last of the rows, or columns, that hold enough to be shown.
+struct Span {
+  int first = 0;
+  int last = 0;
+};
+
+// A few beams that went out through windows would make the building small: the picture leaves out
+// margins in which less than kLeastKnownM of a row is known.
+Span shown(const std::vector<int>& known_cells, double cell_m) {
+  const auto is_enough = [cell_m](int cells) { return cells * cell_m >= kLeastKnownM; };
+  const auto first = std::find_if(known_cells.begin(), known_cells.end(), is_enough);
+  if (first == known_cells.end()) {
+    return {0, static_cast<int>(known_cells.size()) - 1};
+  }
+  const auto last = std::find_if(known_cells.rbegin(), known_cells.rend(), is_enough);
+  return {static_cast<int>(first - known_cells.begin()),
+          static_cast<int>(known_cells.rend() - last) - 1};
+}
+
+void add_grid(const Raster& grid, Extent* extent) {
+  std::vector<int> in_column(static_cast<std::size_t>(grid.width), 0);
+  std::vector<int> in_row(static_cast<std::size_t>(grid.height), 0);
+  for (int y = 0; y < grid.height; ++y) {
+    for (int x = 0; x < grid.width; ++x) {
+      const int is_known = grid.at(x, y) != kUnknownCell ? 1 : 0;
+      in_column[static_cast<std::size_t>(x)] += is_known;
+      in_row[static_cast<std::size_t>(y)] += is_known;
+    }
+  }
+  const Span columns = shown(in_column, grid.cell_m);
+  const Span rows = shown(in_row, grid.cell_m);
+  extent->add(grid.origin_x_m + columns.first * grid.cell_m,
+              grid.origin_y_m + rows.first * grid.cell_m);
+  extent->add(grid.origin_x_m + (columns.last + 1) * grid.cell_m,
+              grid.origin_y_m + (rows.last + 1) * grid.cell_m);
+}
+
 Extent extent_of(const MapLayers& layers) {
   Extent extent;
   if (layers.grid && layers.grid->width > 0) {
-    const Raster& grid = *layers.grid;
-    extent.add(grid.origin_x_m, grid.origin_y_m);
-    extent.add(grid.origin_x_m + grid.width * grid.cell_m,
-               grid.origin_y_m + grid.height * grid.cell_m);
+    add_grid(*layers.grid, &extent);
   }
   if (layers.topology) {
     for (const cairn_lcm::place_t& place : layers.topology->places) {
@@ -98,7 +133,7 @@ Colour path_colour(std::int64_t path_id) {
   const auto channel = [hue](double offset) {
     const double distance = std::abs(std::remainder(hue - offset, 6.0));
     const double saturated = std::clamp(2.0 - distance, 0.0, 1.0);
-    return static_cast<std::uint8_t>(std::lround(255.0 * (0.16 + 0.62 * saturated)));
+    return static_cast<std::uint8_t>(std::lround(255.0 * (0.20 + 0.50 * saturated)));
   };
   return {channel(0.0), channel(2.0), channel(4.0)};
 }

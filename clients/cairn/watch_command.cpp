@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstring>
 #include <csignal>
 #include <tuple>
 
@@ -104,7 +105,8 @@ class Watcher {
     if (options_.as_json) {
       streams_.out << dumped_line({{"what", what}, {"message", json}}) << std::endl;
     } else {
-      streams_.out << clock_text(utime) << "  " << what << "  " << text << std::endl;
+      const std::string column = std::string(what) + std::string(8 - std::strlen(what), ' ');
+      streams_.out << clock_text(utime) << "  " << column << text << std::endl;
     }
     ++printed_;
   }
@@ -117,7 +119,7 @@ class Watcher {
     if (!event.reason.empty()) {
       text += ": " + printable(event.reason);
     }
-    print(event.utime, "event ", text, to_json(event));
+    print(event.utime, "event", text, to_json(event));
   }
 
   void on_status(const cairn_lcm::status_t& status) {
@@ -153,7 +155,7 @@ class Watcher {
     last_pose_ = now;
     last_is_global_ = is_global;
     last_place_ = pose.place_id;
-    print(pose.utime, "pose  ",
+    print(pose.utime, "pose",
           std::string(is_global ? "global " : "local ") +
               pose_text(now.x_m, now.y_m, now.theta_rad) +
               (pose.place_id >= 0 ? " at place " + std::to_string(pose.place_id) : " travelling"),

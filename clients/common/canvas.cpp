@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "clients/common/stroke_font.hpp"
 
@@ -12,6 +13,27 @@ constexpr double kFarthestPixel = 1e6;  // Keeps products of coordinates finite 
 
 bool is_drawable(PixelPoint p) {
   return std::abs(p.x) <= kFarthestPixel && std::abs(p.y) <= kFarthestPixel;  // False for NaN too.
+}
+
+// One character each: letters of Latin-1 without their accents, '?' for what the font does not
+// have.
+std::string in_ascii(const std::string& text) {
+  static constexpr std::string_view kLatin1 =
+      "AAAAAAACEEEEIIIIDNOOOOO*OUUUUYPsaaaaaaaceeeeiiiidnooooo/ouuuuypy";
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const bool is_latin1 =
+        byte == 0xC3 && i + 1 < text.size() && (static_cast<unsigned char>(text[i + 1]) >> 6U) == 2;
+    if (is_latin1) {
+      result += kLatin1[static_cast<unsigned char>(text[++i]) & 0x3FU];
+    } else if (byte < 0x80) {
+      result += text[i];
+    } else if (byte >= 0xC0) {
+      result += '?';
+    }
+  }
+  return result;
 }
 
 double distance_to_segment(PixelPoint p, PixelPoint a, PixelPoint b) {
@@ -123,7 +145,7 @@ void Canvas::rectangle(PixelPoint corner, PixelPoint opposite, Colour colour, do
 void Canvas::text(PixelPoint base, double height_pixels, const std::string& text, const Pen& pen) {
   const double unit = height_pixels / kGlyphHeight;
   double left = base.x;
-  for (const char character : text) {
+  for (const char character : in_ascii(text)) {
     const std::string_view strokes = glyph(character);
     std::vector<PixelPoint> points;
     for (std::size_t i = 0; i < strokes.size(); i += 2) {
@@ -132,7 +154,8 @@ void Canvas::text(PixelPoint base, double height_pixels, const std::string& text
         points.clear();
         ++i;
       }
-      points.push_back({left + (strokes[i] - '0') * unit, base.y - (strokes[i + 1] - '0') * unit});
+      points.push_back(
+          {left + (strokes[i] - '0') * unit, base.y - (strokes[i + 1] - '0' - kGlyphBase) * unit});
     }
     polyline(points, pen);
     left += kGlyphAdvance * unit;
@@ -140,10 +163,9 @@ void Canvas::text(PixelPoint base, double height_pixels, const std::string& text
 }
 
 double Canvas::text_width(double height_pixels, const std::string& text) {
+  const auto length = static_cast<double>(in_ascii(text).size());
   const double gap = kGlyphAdvance - 4.0;
-  return text.empty() ? 0.0
-                      : (static_cast<double>(text.size()) * kGlyphAdvance - gap) * height_pixels /
-                            kGlyphHeight;
+  return length == 0.0 ? 0.0 : (length * kGlyphAdvance - gap) * height_pixels / kGlyphHeight;
 }
 
 }  // namespace cairn::clients

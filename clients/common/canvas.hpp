@@ -47,8 +47,8 @@ class Canvas {
   void disc(PixelPoint centre, double radius_pixels, Colour colour, double opacity = 1.0);
   void rectangle(PixelPoint corner, PixelPoint opposite, Colour colour, double opacity = 1.0);
 
-  /// Text in strokes, beginning at the left end of the base line. Bytes that are not printable
-  /// ASCII show as '?'.
+  /// Text in strokes, beginning at the left end of the base line. Letters of Latin-1 lose their
+  /// accents; what the font does not have shows as '?'.
   void text(PixelPoint base, double height_pixels, const std::string& text, const Pen& pen);
   /// Width of that text.
   [[nodiscard]] static double text_width(double height_pixels, const std::string& text);

@@ -32,16 +32,17 @@ struct DaemonLink::Inbox {
   std::int64_t heard_us = 0;  ///< Last sign of a daemon.
   std::optional<cairn_lcm::status_t> status;
   std::int64_t client_id = 0;  ///< Of the request under way: answers to others are not for us.
-  std::int32_t request_id = 0;
   std::optional<result_t> result;
   std::optional<cairn_lcm::plan_t> plan;
   wire::DocumentFetch* fetch = nullptr;
 
-  void begin(std::int64_t client) {
+  /// @return when the waiting begins: equal to heard_us as long as nobody is heard
+  std::int64_t begin(std::int64_t client) {
     client_id = client;
     result.reset();
     plan.reset();
     heard_us = steady_us();
+    return heard_us;
   }
 };
 
@@ -148,7 +149,7 @@ std::vector<std::uint8_t> DaemonLink::fetch(std::int32_t what, const char* name)
     bus_->publish("CAIRN_REQUEST_SNAPSHOT", request);
   };
   wire::DocumentFetch fetch(what, 0, requests);
-  inbox_->begin(requests.client_id);
+  const std::int64_t begin_us = inbox_->begin(requests.client_id);
   inbox_->fetch = &fetch;
   const auto leave = [this](wire::DocumentFetch*) { inbox_->fetch = nullptr; };
   const std::unique_ptr<wire::DocumentFetch, decltype(leave)> guard(&fetch, leave);
@@ -175,6 +176,9 @@ std::vector<std::uint8_t> DaemonLink::fetch(std::int32_t what, const char* name)
     if (static_cast<double>(now_us - advanced_us) > kPatience * options_.timeout_s * 1e6) {
       break;
     }
+  }
+  if (inbox_->heard_us == begin_us) {
+    throw no_daemon();
   }
   if (fetch.state() != wire::DocumentFetch::State::kDone) {
     throw Failure(ExitCode::kNoService,

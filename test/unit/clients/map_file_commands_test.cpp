@@ -1,0 +1,242 @@
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sqlite3.h>
+
+#include "clients/cairn/program.hpp"
+#include "unit/clients/sample_map.hpp"
+
+namespace cairn::clients {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+struct Outcome {
+  int status = -1;
+  std::string out;
+  std::string err;
+};
+
+Outcome run(const std::vector<std::string>& arguments) {
+  std::ostringstream out;
+  std::ostringstream err;
+  const int status = run_cairn(arguments, out, err);
+  return {status, out.str(), err.str()};
+}
+
+class MapFileCommands : public ::testing::Test {
+ protected:
+  MapFileCommands() { write_sample_map(map_); }
+
+  [[nodiscard]] std::string output(const char* name) const { return (folder_ / name).string(); }
+
+  TemporaryFolder folder_;
+  std::string map_ = (folder_ / "sample.cairn").string();
+};
+
+TEST_F(MapFileCommands, PlacesAreListedWithWhereTheirGatewaysLead) {
+  const Outcome places = run({"places", map_});
+
+  EXPECT_EQ(places.status, 0) << places.err;
+  EXPECT_THAT(places.out, HasSubstr("0>4 1>2"));
+  EXPECT_THAT(places.out, HasSubstr("0>3 1>1 2?"));
+  EXPECT_THAT(places.out, HasSubstr("B\xC3\xBCro & Lab"));
+  EXPECT_THAT(places.out, HasSubstr("5*"));
+  EXPECT_THAT(places.err, IsEmpty());
+}
+
+TEST_F(MapFileCommands, JsonOfPlacesIsTheTopologyMessage) {
+  const nlohmann::json json = nlohmann::json::parse(run({"places", "--json", map_}).out);
+
+  ASSERT_EQ(json["places"].size(), 5U);
+  EXPECT_EQ(json["places"][3]["gateways"][2]["is_pending"], true);
+  EXPECT_EQ(json["places"][4]["name"], "B\xC3\xBCro & Lab");
+  EXPECT_EQ(json["segments"].size(), 5U);
+  EXPECT_EQ(json["probability"], 0.75);
+}
+
+TEST_F(MapFileCommands, HypothesesSayWhetherTheGuaranteeHolds) {
+  const Outcome hypotheses = run({"hypotheses", map_});
+
+  EXPECT_EQ(hypotheses.status, 0);
+  EXPECT_THAT(hypotheses.out, HasSubstr("0.7500        -10.500"));
+  EXPECT_THAT(hypotheses.out, HasSubstr("2 live after 9 visits, 41 refuted"));
+  EXPECT_THAT(hypotheses.out, HasSubstr("guarantee kept"));
+}
+
+TEST_F(MapFileCommands, StatusCountsDocumentsAndJournal) {
+  const Outcome status = run({"status", map_});
+  EXPECT_EQ(status.status, 0);
+  EXPECT_THAT(status.out,
+              AllOf(HasSubstr("map_id = 7"), HasSubstr("5 places, 5 paths"),
+                    HasSubstr("visit: 3 rows"), HasSubstr("trajectory at revision 31")));
+
+  const nlohmann::json json = nlohmann::json::parse(run({"status", "--json", map_}).out);
+  EXPECT_EQ(json["journal"], nlohmann::json({{"visit", 3}}));
+  EXPECT_EQ(json["documents"]["global_map"]["revision"], 31);
+}
+
+TEST_F(MapFileCommands, ReadingLeavesNoFilesBesideTheMap) {
+  run({"status", map_});
+  EXPECT_EQ(run({"places", map_}).status, 0);
+
+  EXPECT_FALSE(std::filesystem::exists(map_ + "-wal"));
+  EXPECT_FALSE(std::filesystem::exists(map_ + "-shm"));
+}
+
+TEST_F(MapFileCommands, AMapThatADaemonHasOpenShowsWhatItLastSaved) {
+  sqlite3* daemon = nullptr;
+  ASSERT_EQ(sqlite3_open(map_.c_str(), &daemon), SQLITE_OK);
+  // The first stays in the write-ahead log; the second is not committed.
+  ASSERT_EQ(sqlite3_exec(daemon,
+                         "INSERT INTO visit VALUES (4); BEGIN IMMEDIATE;"
+                         "INSERT INTO visit VALUES (5)",
+                         nullptr, nullptr, nullptr),
+            SQLITE_OK);
+
+  const Outcome status = run({"status", map_});
+  sqlite3_close(daemon);
+
+  EXPECT_EQ(status.status, 0) << status.err;
+  EXPECT_THAT(status.out, HasSubstr("visit: 4 rows"));
+}
+
+TEST_F(MapFileCommands, TrajectoryKeepsTheMicrosecondsOfTheLog) {
+  ASSERT_EQ(run({"export", "--trajectory", output("t.txt"), map_}).status, 0);
+
+  const std::string text = content_of(output("t.txt"));
+  EXPECT_THAT(text, StartsWith("1700000000.000001 0.000000000 0.000000000 0.300000000\n"
+                               "1700000000.100001 0.100000000 "));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 251);
+}
+
+TEST_F(MapFileCommands, GridForRosIsFlippedAndHasItsOriginBesideIt) {
+  ASSERT_EQ(run({"map", "--pgm", output("m.pgm"), map_}).status, 0);
+
+  const std::string pgm = content_of(output("m.pgm"));
+  // The walls stand one cell outside of the floor: 29 m by 14 m of it.
+  EXPECT_THAT(pgm, StartsWith("P5\n582 282\n255\n"));
+  const std::string pixels = pgm.substr(15);
+  ASSERT_EQ(pixels.size(), 582U * 282U);
+  EXPECT_EQ(pixels[0], '\0') << "the wall at the upper left";
+  EXPECT_EQ(static_cast<unsigned char>(pixels[582 * 5 + 5]), 254) << "the corridor inside";
+  EXPECT_EQ(static_cast<unsigned char>(pixels[582 * 100 + 200]), 205) << "within the loop";
+  EXPECT_THAT(content_of(output("m.yaml")),
+              AllOf(HasSubstr("image: m.pgm\n"), HasSubstr("resolution: 0.050000\n"),
+                    HasSubstr("origin: [-1.050000, -3.050000, 0.0]\n")));
+}
+
+TEST_F(MapFileCommands, PictureIsAPngOfTheSizeAskedFor) {
+  ASSERT_EQ(run({"map", "--png", output("m.png"), "--pixels", "800", "--trajectory", map_}).status,
+            0);
+
+  const std::string png = content_of(output("m.png"));
+  EXPECT_THAT(png, StartsWith("\x89PNG\r\n\x1A\n"));
+  EXPECT_EQ(png.substr(16, 4), std::string({0, 0, 3, 32})) << "width 800";
+}
+
+TEST_F(MapFileCommands, GraphFilesNameEveryPlaceAndEdge) {
+  ASSERT_EQ(run({"export", "--dot", output("m.dot"), "--graphml", output("m.graphml"),
+                 "--topology-svg", output("m.svg"), map_})
+                .status,
+            0);
+
+  EXPECT_THAT(content_of(output("m.dot")),
+              AllOf(HasSubstr("1 -- 2 [taillabel=\"1\", headlabel=\"2\""), EndsWith("}\n")));
+  EXPECT_THAT(content_of(output("m.graphml")),
+              AllOf(HasSubstr("<node id=\"p5\">"), HasSubstr("B\xC3\xBCro &amp; Lab"),
+                    HasSubstr("<edge source=\"p2\" target=\"p5\">")));
+  EXPECT_THAT(content_of(output("m.svg")),
+              AllOf(HasSubstr("<title>place 5 B\xC3\xBCro &amp; Lab: [1+ 2-]</title>"),
+                    HasSubstr("class=\"pending\""), HasSubstr(" m</text>")));
+}
+
+TEST_F(MapFileCommands, PlanningFromAFileSaysThatItNeedsADaemon) {
+  const Outcome path = run({"path", "--to", "3", map_});
+
+  EXPECT_EQ(path.status, 69);
+  EXPECT_THAT(path.err, HasSubstr("planning needs a running daemon: start `cairnd --map "));
+}
+
+TEST_F(MapFileCommands, AFileThatIsNoMapIsBadData) {
+  std::ofstream(output("notes.txt")) << "Not a database, but long enough to look at: " << map_;
+  run_sql(output("other.db"), "CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT)");
+  run_sql(output("future.db"),
+          "CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT);"
+          "INSERT INTO meta VALUES ('application', 'cairn'), ('format_version', '2')");
+
+  for (const auto& [name, reason] :
+       std::map<std::string, std::string>{{"notes.txt", "is no cairn map"},
+                                          {"other.db", "is no cairn map"},
+                                          {"future.db", "format 2; this program reads format 1"},
+                                          {"missing.db", "there is no such file"}}) {
+    const Outcome status = run({"status", output(name.c_str())});
+    EXPECT_EQ(status.status, 65) << name;
+    EXPECT_THAT(status.err, HasSubstr(reason));
+    EXPECT_EQ(std::count(status.err.begin(), status.err.end(), '\n'), 1) << status.err;
+  }
+}
+
+TEST_F(MapFileCommands, ADamagedDocumentIsBadDataAndTheOthersStillRead) {
+  run_sql(map_,
+          "UPDATE document SET bytes = x'28B52FFD2001000041' WHERE what = 1;"
+          "DELETE FROM document WHERE what = 2");
+
+  EXPECT_EQ(run({"places", map_}).status, 65);
+  EXPECT_THAT(run({"hypotheses", map_}).err, HasSubstr("holds no list of hypotheses"));
+  EXPECT_EQ(run({"export", "--trajectory", output("t.txt"), map_}).status, 0);
+}
+
+TEST_F(MapFileCommands, TruncationAtAnyPointIsNeverMoreThanAnError) {
+  const std::string whole = content_of(map_);
+  for (std::size_t size = 0; size < whole.size(); size += 1 + whole.size() / 23) {
+    std::ofstream(output("cut.cairn"), std::ios::binary) << whole.substr(0, size);
+    // Stored last, so that every cut hits it.
+    EXPECT_EQ(run({"export", "--trajectory", output("t.txt"), output("cut.cairn")}).status, 65)
+        << size;
+  }
+}
+
+TEST_F(MapFileCommands, OutputThatCannotBeWrittenIsItsOwnError) {
+  EXPECT_EQ(run({"map", "--png", output("no/such/folder.png"), map_}).status, 73);
+}
+
+TEST_F(MapFileCommands, WrongCommandLinesAreUsageErrors) {
+  EXPECT_EQ(run({}).status, 64);
+  EXPECT_EQ(run({"frobnicate"}).status, 64);
+  EXPECT_EQ(run({"places", "--frob", map_}).status, 64);
+  EXPECT_EQ(run({"map", map_}).status, 64) << "no output named";
+  EXPECT_EQ(run({"map", "--svg", output("x.svg"), "--trajectory", map_}).status, 64);
+  EXPECT_EQ(run({"watch", "--count", "0"}).status, 64);
+  EXPECT_EQ(run({"path", "--to", "nan,1", map_}).status, 64);
+}
+
+TEST_F(MapFileCommands, HelpAndVersionAreData) {
+  for (const char* command :
+       {"status", "watch", "places", "hypotheses", "map", "path", "export", "log"}) {
+    const Outcome help = run({command, "--help"});
+    EXPECT_EQ(help.status, 0);
+    EXPECT_THAT(help.out, HasSubstr("Usage:"));
+    EXPECT_THAT(help.err, IsEmpty());
+  }
+  EXPECT_THAT(run({"--version"}).out, StartsWith("cairn 0."));
+}
+
+TEST_F(MapFileCommands, NamesCannotWriteToTheTerminal) {
+  run_sql(map_, "INSERT INTO meta VALUES ('note', char(27) || ']0;owned' || char(7))");
+
+  EXPECT_THAT(run({"status", map_}).out, AllOf(HasSubstr("?]0;owned?"), Not(HasSubstr("\x1B"))));
+}
+
+}  // namespace
+}  // namespace cairn::clients

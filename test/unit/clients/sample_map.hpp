@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <cairn_lcm/grid_map_t.hpp>
+#include <cairn_lcm/hypotheses_t.hpp>
+#include <cairn_lcm/status_t.hpp>
+#include <cairn_lcm/topology_t.hpp>
+#include <cairn_lcm/trajectory_t.hpp>
+
+namespace cairn::clients {
+
+// A building to draw and to ask about: a loop of corridors 16 m by 10 m with four crossings (places
+// 1 to 4), and a dead-end arm to the east of place 2 with a room at its end (place 5, "Büro &
+// Lab"). Place 4 has a pending gateway to the west.
+[[nodiscard]] cairn_lcm::grid_map_t sample_grid();
+[[nodiscard]] cairn_lcm::topology_t sample_topology();
+[[nodiscard]] cairn_lcm::hypotheses_t sample_hypotheses();
+[[nodiscard]] cairn_lcm::trajectory_t sample_trajectory();
+[[nodiscard]] cairn_lcm::status_t sample_status();
+
+/// A new directory for the files of one test, removed with it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder();
+  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
+    return path_ / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The whole content of a file.
+[[nodiscard]] std::string content_of(const std::filesystem::path& path);
+
+/// Runs SQL on a database file, which it makes where there is none. Fails the test if SQL does.
+void run_sql(const std::filesystem::path& path, const std::string& sql);
+
+/// Writes the sample as a map file of format 1, with three visits in the journal.
+void write_sample_map(const std::filesystem::path& path);
+
+}  // namespace cairn::clients
