@@ -1,0 +1,72 @@
+#include <cstdint>
+
+#include <gtest/gtest.h>
+
+#include "support/message_samples.hpp"
+
+namespace cairn {
+namespace {
+
+struct Golden {
+  const char* name;
+  std::int64_t (*fingerprint)();
+  std::uint64_t expected;
+};
+
+#define CAIRN_GOLDEN(type, expected) \
+  Golden {                           \
+#type, &type::getHash, expected  \
+  }
+
+// A change here is a change of the wire: old clients and old logs will not be understood.
+TEST(Fingerprints, AreWhatTheyWere) {
+  const Golden all[] = {
+      CAIRN_GOLDEN(cairn_lcm::delta_request_t, 0x93a64af66f90dd59),
+      CAIRN_GOLDEN(cairn_lcm::event_request_t, 0x8fe3e2df393e1cd8),
+      CAIRN_GOLDEN(cairn_lcm::gateway_t, 0x20f62b28d3e48028),
+      CAIRN_GOLDEN(cairn_lcm::grid_map_t, 0x3a6cf0c65d54c034),
+      CAIRN_GOLDEN(cairn_lcm::hypotheses_t, 0x1e2cb63ab38249c1),
+      CAIRN_GOLDEN(cairn_lcm::laser_scan_t, 0x22067aeecbe2b983),
+      CAIRN_GOLDEN(cairn_lcm::map_delta_t, 0x9439777c492dff7f),
+      CAIRN_GOLDEN(cairn_lcm::odometry_t, 0x1ab2679132ee7bc1),
+      CAIRN_GOLDEN(cairn_lcm::place_event_t, 0x2fa5e4157d00aca3),
+      CAIRN_GOLDEN(cairn_lcm::place_t, 0xce4b584ff1e653cb),
+      CAIRN_GOLDEN(cairn_lcm::plan_request_t, 0x923d4c5eb485232e),
+      CAIRN_GOLDEN(cairn_lcm::plan_t, 0x0b59d9787fd38089),
+      CAIRN_GOLDEN(cairn_lcm::pose_t, 0x99a81d002d846c9b),
+      CAIRN_GOLDEN(cairn_lcm::result_t, 0x859f913621bdc739),
+      CAIRN_GOLDEN(cairn_lcm::rpc_header_t, 0x835f8bae3c230091),
+      CAIRN_GOLDEN(cairn_lcm::segment_t, 0x2a73f2943bf28b82),
+      CAIRN_GOLDEN(cairn_lcm::snapshot_chunk_t, 0xb25d9c966c0de137),
+      CAIRN_GOLDEN(cairn_lcm::snapshot_request_t, 0xab58f68426f09869),
+      CAIRN_GOLDEN(cairn_lcm::sonar_ring_t, 0x2e090798c624ed21),
+      CAIRN_GOLDEN(cairn_lcm::status_t, 0x37828253079e9790),
+      CAIRN_GOLDEN(cairn_lcm::tile_t, 0xb87e5a344b6a8dfb),
+      CAIRN_GOLDEN(cairn_lcm::topology_t, 0x7c7d674b3fdf22c0),
+      CAIRN_GOLDEN(cairn_lcm::trajectory_t, 0x6fb8b1443a8c148f),
+  };
+  for (const Golden& type : all) {
+    EXPECT_EQ(static_cast<std::uint64_t>(type.fingerprint()), type.expected) << type.name;
+  }
+}
+
+// The values other projects' programs send.
+TEST(Fingerprints, ForeignTypesAreThoseOfTheirOwners) {
+  const Golden all[] = {
+      CAIRN_GOLDEN(bot_core::planar_lidar_t, 0xe3d17423180b5e8d),
+      CAIRN_GOLDEN(bot_core::pose_t, 0x2e16efb052b0105e),
+      CAIRN_GOLDEN(mbot_lcm_msgs::lidar_t, 0x89dc5b879a5056cf),
+      CAIRN_GOLDEN(mbot_lcm_msgs::pose2D_t, 0x1f317af1246276ac),
+      CAIRN_GOLDEN(vulcan_lcm::laser_t, 0x4efe2c87327fbc24),
+      CAIRN_GOLDEN(vulcan_lcm::laser_3dof_t, 0x034dfce3a3433d1a),
+      CAIRN_GOLDEN(vulcan_lcm::odometry_t, 0x0c094f6ff71567ed),
+  };
+  for (const Golden& type : all) {
+    EXPECT_EQ(static_cast<std::uint64_t>(type.fingerprint()), type.expected) << type.name;
+  }
+}
+
+#undef CAIRN_GOLDEN
+
+}  // namespace
+}  // namespace cairn
