@@ -54,7 +54,9 @@ void Driver::update_progress() {
   const double window_end_m = std::min(progress_m_ + kProgressWindow_m, stop_m);
   double nearest_m = distance_m(pose_.at, point_at(progress_m_));
   double best_along_m = progress_m_;
-  for (double along_m = progress_m_; along_m <= window_end_m; along_m += kProgressStep_m) {
+  const int steps = static_cast<int>((window_end_m - progress_m_) / kProgressStep_m);
+  for (int step = 1; step <= steps; ++step) {
+    const double along_m = progress_m_ + step * kProgressStep_m;
     const double here_m = distance_m(pose_.at, point_at(along_m));
     if (here_m < nearest_m) {
       nearest_m = here_m;

@@ -57,8 +57,8 @@ void list_tours(const World& world, const Arguments& arguments) {
   for (const Tour& tour : world.tours) {
     const double drive_s = seconds(duration_of(world, tour, arguments.simulation));
     if (arguments.json) {
-      std::printf("%s{\"tour\":\"%s\",\"length_m\":%.1f,\"duration_s\":%.1f}", before,
-                  tour.name.c_str(), length_m(world, tour), drive_s);
+      std::printf(R"(%s{"tour":"%s","length_m":%.1f,"duration_s":%.1f})", before, tour.name.c_str(),
+                  length_m(world, tour), drive_s);
       before = ",";
     } else {
       std::printf("%-16s %7.1f m %7.1f s  %zu waypoints\n", tour.name.c_str(),
@@ -163,7 +163,7 @@ void drive(const World& world, const Tour& tour, const Arguments& arguments) {
 }
 
 int complain(const std::exception& error, int exit_code) {
-  std::fprintf(stderr, "cairn-sim: %s\n", error.what());
+  static_cast<void>(std::fprintf(stderr, "cairn-sim: %s\n", error.what()));
   return exit_code;
 }
 
@@ -194,7 +194,7 @@ int main(int argc, char** argv) {
   if (!arguments) {
     return exit_code;
   }
-  std::signal(SIGTERM, cairn::sim::request_stop);
-  std::signal(SIGINT, cairn::sim::request_stop);
+  static_cast<void>(std::signal(SIGTERM, cairn::sim::request_stop));
+  static_cast<void>(std::signal(SIGINT, cairn::sim::request_stop));
   return cairn::sim::run(*arguments);
 }

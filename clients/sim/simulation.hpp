@@ -42,7 +42,9 @@ class Recorder {
  public:
   Recorder() = default;
   Recorder(const Recorder&) = delete;
+  Recorder(Recorder&&) = delete;
   Recorder& operator=(const Recorder&) = delete;
+  Recorder& operator=(Recorder&&) = delete;
   virtual ~Recorder() = default;
 
   virtual void record_odometry(std::int64_t time_us, const Pose& T_odom_robot) = 0;

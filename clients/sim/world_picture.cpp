@@ -22,7 +22,9 @@ class PictureReader {
   PictureReader() { image_.version = PNG_IMAGE_VERSION; }
   ~PictureReader() { png_image_free(&image_); }
   PictureReader(const PictureReader&) = delete;
+  PictureReader(PictureReader&&) = delete;
   PictureReader& operator=(const PictureReader&) = delete;
+  PictureReader& operator=(PictureReader&&) = delete;
 
   FloorPlan read(const std::filesystem::path& file, double m_per_pixel) {
     if (png_image_begin_read_from_file(&image_, file.c_str()) == 0) {

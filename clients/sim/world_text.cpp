@@ -28,7 +28,7 @@ struct Line {
 /// Reads one world; a first pass collects the lines, then the drawing gives names their points.
 class WorldParser {
  public:
-  explicit WorldParser(const std::string& source) : source_(source) {}
+  explicit WorldParser(std::string source) : source_(std::move(source)) {}
 
   World parse(std::string_view text) {
     read_lines(text);
@@ -112,7 +112,9 @@ class WorldParser {
     expect_end(line, words);
   }
 
-  double number_in(const Line& line, const std::string& word, const std::string& meaning) const {
+  [[nodiscard]] double number_in(const Line& line,
+                                 const std::string& word,
+                                 const std::string& meaning) const {
     return number_of(word, meaning, source_ + ":" + std::to_string(line.number));
   }
 
@@ -164,7 +166,7 @@ class WorldParser {
     }
   }
 
-  Point point_named(const Line& line, const std::string& name) const {
+  [[nodiscard]] Point point_named(const Line& line, const std::string& name) const {
     const auto found = points_.find(name);
     if (found == points_.end()) {
       fail(line.number, "expected a point of the drawing, got '" + name + "'");
@@ -172,7 +174,7 @@ class WorldParser {
     return found->second;
   }
 
-  Tour tour_of(const Line& line) const {
+  [[nodiscard]] Tour tour_of(const Line& line) const {
     std::istringstream words(line.text);
     std::string word;
     Tour tour;
@@ -215,7 +217,7 @@ class WorldParser {
     }
   }
 
-  Pose read_start() const {
+  [[nodiscard]] Pose read_start() const {
     std::istringstream words(start_line_.text);
     std::string keyword;
     std::string name;
