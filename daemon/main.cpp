@@ -56,18 +56,20 @@ int fail(ExitCode code, const std::string& message) {
   return to_status(code);
 }
 
-Result<DaemonOptions> options_of(const Arguments& arguments) {
-  std::string text = "{}";
-  if (!arguments.config_file.empty()) {
-    std::ifstream file(arguments.config_file);
-    if (!file) {
-      return Error{ErrorCode::kNotFound, arguments.config_file + ": cannot be read"};
-    }
-    std::ostringstream content;
-    content << file.rdbuf();
-    text = content.str();
+Result<DaemonOptions> read_options_file(const std::string& name) {
+  std::ifstream file(name);
+  if (!file) {
+    return Error{ErrorCode::kNotFound, "the file cannot be read"};
   }
-  Result<DaemonOptions> options = read_options(text);
+  std::ostringstream content;
+  content << file.rdbuf();
+  return read_options(content.str());
+}
+
+Result<DaemonOptions> options_of(const Arguments& arguments) {
+  Result<DaemonOptions> options = arguments.config_file.empty()
+                                      ? read_options("{}")
+                                      : read_options_file(arguments.config_file);
   if (!options) {
     return Error{options.error().code,
                  (arguments.config_file.empty() ? "defaults" : arguments.config_file) + ": " +
