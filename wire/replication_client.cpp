@@ -7,6 +7,7 @@
 #include <cairn_lcm/grid_map_t.hpp>
 
 #include "wire/document.hpp"
+#include "wire/signatures.hpp"
 
 namespace cairn::wire {
 

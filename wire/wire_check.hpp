@@ -77,6 +77,7 @@ inline constexpr std::string_view kSignatureText;
 
 template <class T>
 [[nodiscard]] const Signature& signature_of() {
+  static_assert(!kSignatureText<T>.empty(), "include wire/signatures.hpp");
   static const Signature signature(kSignatureText<T>);
   return signature;
 }
