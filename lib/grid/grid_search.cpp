@@ -8,24 +8,30 @@
 #include <string>
 
 #include "base/check.hpp"
-#include "base/validator.hpp"
-#include "grid/distance_transform.hpp"
 
 namespace cairn {
 namespace {
 
-constexpr std::uint32_t kOpenWeight = 16;
 // A step costs its length times the weights of both its cells; 17 / 12 is the root of two.
 constexpr std::uint32_t kStraight = 12;
 constexpr std::uint32_t kDiagonal = 17;
+constexpr std::uint32_t kOpenWeight = GridSearch::kOpenWeight;
 constexpr double kCostPerCell = 2.0 * kOpenWeight * kStraight;
 // No way may cost more; a thousand steps are far from overflowing.
 constexpr std::uint32_t kMostCost = std::numeric_limits<std::uint32_t>::max() - 10'000'000;
+
+// Estimates that differ by less share a bucket: a sixth of the cost of an open cell.
+constexpr std::uint32_t kBucketCost = 64;
+// A step adds at most 2 x 255 x 17 to the cost and 2 x 16 x 17 to the estimate of what is left.
+constexpr std::uint32_t kBucketCount = 256;
+constexpr int kStepBits = 4;  // Eight steps, and none for the start.
+constexpr std::uint32_t kNoStep = 8;
 
 struct Step {
   int dx = 0;
   int dy = 0;
 };
+// Each diagonal follows from two straight steps: number 4 + i from i and (i + 1) % 4.
 constexpr std::array<Step, 8> kSteps = {
     {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
 
@@ -33,83 +39,58 @@ constexpr std::array<Step, 8> kSteps = {
 std::uint32_t least_cost(Cell from, Cell to) {
   const auto dx = static_cast<std::uint32_t>(std::abs(to.x - from.x));
   const auto dy = static_cast<std::uint32_t>(std::abs(to.y - from.y));
-  return 2 * kOpenWeight *
-         (kStraight * (std::max(dx, dy) - std::min(dx, dy)) + kDiagonal * std::min(dx, dy));
+  const std::uint32_t diagonal = std::min(dx, dy);
+  return 2 * kOpenWeight * (kStraight * (std::max(dx, dy) - diagonal) + kDiagonal * diagonal);
 }
-
-/// Max-heap order that gives the least estimate; among those the one nearest to the goal, then the
-/// lower cell.
-constexpr auto kIsWorse = [](const auto& a, const auto& b) {
-  if (a.estimate != b.estimate) {
-    return a.estimate > b.estimate;
-  }
-  return a.cost != b.cost ? a.cost < b.cost : a.index > b.index;
-};
 
 std::string text_of(Cell cell) {
   return "(" + std::to_string(cell.x) + ", " + std::to_string(cell.y) + ")";
 }
 
+/// Calls `visit` with the first cell and the length of every row of a disc within the grid.
+template <typename Visit>
+void for_rows_of_disc(const GridGeometry& geometry, Cell center, int reach_cells, Visit visit) {
+  const int lower = std::max(0, center.y - reach_cells);
+  const int upper = std::min(geometry.height - 1, center.y + reach_cells);
+  for (int y = lower; y <= upper; ++y) {
+    const double dy = y - center.y;
+    const int half = static_cast<int>(std::sqrt(1.0 * reach_cells * reach_cells - dy * dy));
+    const int first = std::max(0, center.x - half);
+    const int last = std::min(geometry.width - 1, center.x + half);
+    if (first <= last) {
+      visit(Cell{first, y}, last - first + 1);
+    }
+  }
+}
+
 }  // namespace
 
-Status validate(const GridSearchOptions& options) {
-  return Validator("grid_search")
-      .within("robot_radius_m", options.robot_radius_m, 0.0, 10.0)
-      .within("comfort_clearance_m", options.comfort_clearance_m, 0.0, 10.0)
-      .within("wall_cost", options.wall_cost, 0.0, 14.0)
-      .status();
+GridSearch::GridSearch(const GridGeometry& geometry)
+    : geometry_(geometry),
+      stride_(static_cast<std::uint32_t>(geometry.width) + 2),
+      buckets_(kBucketCount) {
+  const std::size_t count = stride_ * (static_cast<std::size_t>(geometry.height) + 2);
+  CAIRN_CHECK(count < std::numeric_limits<std::uint32_t>::max());
+  tenths_clearance_.resize(count);
+  weight_.resize(count);
+  near_weight_.resize(count);
+  nodes_.resize(count);
 }
 
 GridSearch::GridSearch(const OccupancyGrid& grid, const GridSearchOptions& options)
-    : geometry_(grid.geometry()), nodes_(grid.geometry().cell_count()) {
+    : GridSearch(grid.geometry()) {
   CAIRN_CHECK(validate(options).ok());
   measure_clearance(grid);
   set_weights(grid, options);
 }
 
-void GridSearch::measure_clearance(const OccupancyGrid& grid) {
-  OccupancyGrid walls = grid;
-  for (OccupancyGrid::LogOdds& value : walls.cells()) {
-    if (value <= OccupancyGrid::kOccupiedAbove) {
-      value = OccupancyGrid::kFreeBelow - 1;
-    }
-  }
-  const DistanceTransform distances = distance_transform(walls);
-  tenths_clearance_.reserve(geometry_.cell_count());
-  for (int y = 0; y < geometry_.height; ++y) {
-    for (int x = 0; x < geometry_.width; ++x) {
-      const double cells = std::sqrt(distances.squared_clearance_cells({x, y}));
-      tenths_clearance_.push_back(
-          static_cast<std::uint8_t>(std::min(255L, std::lround(10.0 * cells))));
-    }
-  }
-}
-
-void GridSearch::set_weights(const OccupancyGrid& grid, const GridSearchOptions& options) {
-  weight_.resize(geometry_.cell_count());
-  const double margin_m = options.comfort_clearance_m - options.robot_radius_m;
-  for (std::size_t i = 0; i < weight_.size(); ++i) {
-    const double clearance = 0.1 * geometry_.cell_m * tenths_clearance_[i];
-    const bool is_known = grid.cells()[i] < OccupancyGrid::kFreeBelow;
-    if (tenths_clearance_[i] == 0 || clearance < options.robot_radius_m ||
-        !(is_known || options.unknown_is_traversable)) {
-      continue;
-    }
-    const double nearness =
-        margin_m > 0.0 ? std::max(0.0, (options.comfort_clearance_m - clearance) / margin_m) : 0.0;
-    weight_[i] = static_cast<std::uint8_t>(
-        std::lround(kOpenWeight * (1.0 + options.wall_cost * std::min(1.0, nearness))));
-  }
-}
-
 bool GridSearch::is_traversable(Cell cell) const {
-  return geometry_.contains(cell) && weight_[geometry_.index_of(cell)] != 0;
+  return geometry_.contains(cell) && weight_[index_of(cell)] != 0;
 }
 
 double GridSearch::clearance_m(Cell cell) const {
-  return geometry_.contains(cell)
-             ? 0.1 * geometry_.cell_m * tenths_clearance_[geometry_.index_of(cell)]
-             : 0.0;
+  return geometry_.contains(cell) ? 0.1 * geometry_.cell_m * tenths_clearance_[index_of(cell)]
+                                  : 0.0;
 }
 
 double GridSearch::line_cost_m(Cell from, Cell to) const {
@@ -122,103 +103,147 @@ double GridSearch::line_cost_m(Cell from, Cell to) const {
     if (!is_traversable(cell)) {
       return std::numeric_limits<double>::infinity();
     }
-    weights += weight_[geometry_.index_of(cell)];
+    weights += weight_[index_of(cell)];
   }
   const double mean_weight = static_cast<double>(weights) / (samples + 1.0) / kOpenWeight;
   return geometry_.cell_m * std::hypot(to.x - from.x, to.y - from.y) * mean_weight;
 }
 
 Result<GridPath> GridSearch::find_path(Cell from, Cell to) {
-  return search(from, to, nullptr);
+  return search(weight_, from, to);
 }
 
-Result<GridPath> GridSearch::find_path_within(const std::vector<std::uint8_t>& allowed,
-                                              Cell from,
-                                              Cell to) {
-  CAIRN_CHECK(allowed.size() == geometry_.cell_count());
-  return search(from, to, allowed.data());
+Result<GridPath> GridSearch::find_path_near(const std::vector<Cell>& line,
+                                            int reach_cells,
+                                            Cell from,
+                                            Cell to) {
+  for (const Cell cell : line) {
+    copy_weights(cell, reach_cells);
+  }
+  copy_weights(from, reach_cells);
+  copy_weights(to, reach_cells);
+  Result<GridPath> path = search(near_weight_, from, to);
+  for (const Cell cell : line) {
+    clear_weights(cell, reach_cells);
+  }
+  clear_weights(from, reach_cells);
+  clear_weights(to, reach_cells);
+  return path;
 }
 
-Result<GridPath> GridSearch::search(Cell from, Cell to, const std::uint8_t* allowed) {
+void GridSearch::copy_weights(Cell center, int reach_cells) {
+  for_rows_of_disc(geometry_, center, reach_cells, [&](Cell first, int length) {
+    std::copy_n(weight_.data() + index_of(first), length, near_weight_.data() + index_of(first));
+  });
+}
+
+void GridSearch::clear_weights(Cell center, int reach_cells) {
+  for_rows_of_disc(geometry_, center, reach_cells, [&](Cell first, int length) {
+    std::fill_n(near_weight_.data() + index_of(first), length, std::uint8_t{0});
+  });
+}
+
+Result<GridPath> GridSearch::search(const std::vector<std::uint8_t>& weight, Cell from, Cell to) {
   for (const Cell end : {from, to}) {
     if (!is_traversable(end)) {
       return Error{ErrorCode::kInvalidValue,
                    "grid search: cell " + text_of(end) + " is not traversable"};
     }
   }
-  const auto goal = static_cast<std::uint32_t>(geometry_.index_of(to));
-  begin(static_cast<std::uint32_t>(geometry_.index_of(from)), least_cost(from, to));
-  while (!open_.empty()) {
-    std::pop_heap(open_.begin(), open_.end(), kIsWorse);
-    const Open node = open_.back();
-    open_.pop_back();
-    if (node.index == goal) {
-      return path_to(goal);
-    }
-    if (node.cost == nodes_[node.index].cost && node.cost < kMostCost) {
-      expand(node, to, allowed);
-    }
+  begin(index_of(from), least_cost(from, to));
+  if (!run(weight, index_of(to))) {
+    return Error{ErrorCode::kNotFound,
+                 "grid search: no way from cell " + text_of(from) + " to cell " + text_of(to)};
   }
-  return Error{ErrorCode::kNotFound,
-               "grid search: no way from cell " + text_of(from) + " to cell " + text_of(to)};
+  return path_to(index_of(to));
 }
 
 void GridSearch::begin(std::uint32_t start, std::uint32_t estimate) {
-  if (++search_number_ == 0) {  // After 2^32 searches all nodes are stale again.
+  if (++search_number_ == (1U << (32 - kStepBits))) {  // All numbers are used: forget everything.
     std::fill(nodes_.begin(), nodes_.end(), Node{});
     search_number_ = 1;
   }
-  open_.clear();
-  nodes_[start] = {0, search_number_, start};
-  open_.push_back({estimate, 0, start});
+  for (std::vector<Open>& bucket : buckets_) {
+    bucket.clear();
+  }
+  open_count_ = 0;
+  bucket_ = estimate / kBucketCost;
+  nodes_[start] = {0, search_number_ << kStepBits | kNoStep};
+  open(estimate, {0, start});
 }
 
-void GridSearch::expand(const Open& node, Cell goal, const std::uint8_t* allowed) {
-  const Cell cell = cell_of(node.index);
-  const std::uint32_t weight = weight_[node.index];
-  for (const Step step : kSteps) {
-    const Cell next{cell.x + step.dx, cell.y + step.dy};
-    if (!is_traversable(next)) {
+void GridSearch::open(std::uint32_t estimate, const Open& node) {
+  buckets_[estimate / kBucketCost % kBucketCount].push_back(node);
+  ++open_count_;
+}
+
+/// Whether the goal was reached. A way is the cheapest when its whole bucket has been expanded.
+bool GridSearch::run(const std::vector<std::uint8_t>& weight, std::uint32_t goal) {
+  const Cell goal_cell = cell_of(goal);
+  bool is_reached = false;
+  while (open_count_ > 0) {
+    std::vector<Open>& bucket = buckets_[bucket_ % kBucketCount];
+    if (bucket.empty()) {
+      if (is_reached) {
+        break;
+      }
+      ++bucket_;
       continue;
     }
-    const bool is_diagonal = step.dx != 0 && step.dy != 0;
-    if (is_diagonal && !(is_traversable({next.x, cell.y}) && is_traversable({cell.x, next.y}))) {
-      continue;  // Would cut a corner.
+    const Open node = bucket.back();
+    bucket.pop_back();
+    --open_count_;
+    if (node.index == goal) {
+      is_reached = true;
+    } else if (node.cost == nodes_[node.index].cost && node.cost < kMostCost) {
+      expand(weight, node, goal_cell);
     }
-    const auto index = static_cast<std::uint32_t>(geometry_.index_of(next));
-    if (allowed != nullptr && allowed[index] == 0) {
+  }
+  return is_reached;
+}
+
+void GridSearch::expand(const std::vector<std::uint8_t>& weight, const Open& node, Cell goal) {
+  const Cell cell = cell_of(node.index);
+  const std::uint32_t own_weight = weight[node.index];
+  const auto stride = static_cast<int>(stride_);
+  std::array<std::uint32_t, 8> neighbor_weight{};
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    const auto index = static_cast<std::uint32_t>(static_cast<int>(node.index) +
+                                                  kSteps[i].dy * stride + kSteps[i].dx);
+    const std::uint32_t next_weight = weight[index];
+    neighbor_weight[i] = next_weight;
+    // Nothing may cut a corner: a diagonal needs both cells beside it.
+    if (next_weight == 0 ||
+        (i >= 4 && (neighbor_weight[i - 4] == 0 || neighbor_weight[(i - 3) % 4] == 0))) {
       continue;
     }
     const std::uint32_t cost =
-        node.cost + (is_diagonal ? kDiagonal : kStraight) * (weight + weight_[index]);
+        node.cost + (i >= 4 ? kDiagonal : kStraight) * (own_weight + next_weight);
     Node& known = nodes_[index];
-    if (known.search == search_number_ && known.cost <= cost) {
+    if (known.mark >> kStepBits == search_number_ && known.cost <= cost) {
       continue;
     }
-    known = {cost, search_number_, node.index};
-    open_.push_back({cost + least_cost(next, goal), cost, index});
-    std::push_heap(open_.begin(), open_.end(), kIsWorse);
+    known = {cost, search_number_ << kStepBits | i};
+    open(cost + least_cost({cell.x + kSteps[i].dx, cell.y + kSteps[i].dy}, goal), {cost, index});
   }
 }
 
 GridPath GridSearch::path_to(std::uint32_t index) const {
   GridPath path;
   path.cost_m = geometry_.cell_m * nodes_[index].cost / kCostPerCell;
-  path.cells.push_back(cell_of(index));
-  while (nodes_[index].parent != index) {
-    index = nodes_[index].parent;
-    const Cell cell = cell_of(index);
-    const Cell after = path.cells.back();
-    path.length_m += geometry_.cell_m * std::hypot(after.x - cell.x, after.y - cell.y);
+  Cell cell = cell_of(index);
+  path.cells.push_back(cell);
+  while (true) {
+    const std::uint32_t step = nodes_[index_of(cell)].mark % (1U << kStepBits);
+    if (step == kNoStep) {
+      break;
+    }
+    cell = {cell.x - kSteps[step].dx, cell.y - kSteps[step].dy};
+    path.length_m += geometry_.cell_m * (step >= 4 ? std::sqrt(2.0) : 1.0);
     path.cells.push_back(cell);
   }
   std::reverse(path.cells.begin(), path.cells.end());
   return path;
-}
-
-Cell GridSearch::cell_of(std::uint32_t index) const {
-  const auto width = static_cast<std::uint32_t>(geometry_.width);
-  return {static_cast<int>(index % width), static_cast<int>(index / width)};
 }
 
 Result<Cell> GridSearch::nearest_traversable(Cell cell, double radius_m) const {

@@ -10,7 +10,7 @@
 #include "base/validator.hpp"
 #include "layout/displacement.hpp"
 #include "layout/linear_start.hpp"
-#include "layout/place_covariances.hpp"
+#include "layout/normal_equations.hpp"
 #include "layout/travel_residual.hpp"
 #include "layout/travel_tree.hpp"
 
@@ -18,6 +18,8 @@ namespace cairn {
 namespace {
 
 constexpr int kMaxPlaces = 1'000'000;
+/// A sum of squares that is nothing but rounding.
+constexpr double kNoCost = 1e-12;
 
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);
@@ -132,9 +134,6 @@ ceres::Solver::Options solver_options(const LayoutOptions& options) {
   solver.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
   solver.num_threads = 1;
   solver.max_num_iterations = options.max_iterations;
-  // The linear start is good: begin as Gauss-Newton, damp only where a step fails.
-  solver.initial_trust_region_radius = 1e8;
-  solver.max_trust_region_radius = 1e16;
   solver.function_tolerance = 1e-9;
   solver.gradient_tolerance = 1e-12;
   solver.parameter_tolerance = 1e-10;
@@ -142,10 +141,35 @@ ceres::Solver::Options solver_options(const LayoutOptions& options) {
   return solver;
 }
 
-/// Moves the places to the nearest least sum of squares.
-Result<int> descend(const std::vector<TravelResidual>& travels,
-                    const LayoutOptions& options,
-                    PlaceVector* places) {
+/// Gauss-Newton steps for as long as they descend.
+/// @return the number of steps; none where a step did not descend, with the places before it
+std::optional<int> descend_freely(NormalEquations* equations,
+                                  const std::vector<TravelResidual>& travels,
+                                  const LayoutOptions& options,
+                                  PlaceVector* places) {
+  double cost = cost_of(*places, travels, options.outlier_sigmas);
+  for (int step = 1; step <= options.max_iterations; ++step) {
+    if (!equations->expand_about(*places, options.outlier_sigmas)) {
+      return std::nullopt;
+    }
+    PlaceVector moved = equations->after_step(*places);
+    const double moved_cost = cost_of(moved, travels, options.outlier_sigmas);
+    if (!(moved_cost <= cost * (1.0 + 1e-9) + kNoCost)) {
+      return std::nullopt;
+    }
+    *places = std::move(moved);
+    if (cost - moved_cost <= 1e-9 * cost + kNoCost) {
+      return step;
+    }
+    cost = moved_cost;
+  }
+  return std::nullopt;
+}
+
+/// Moves the places to the nearest least sum of squares where Gauss-Newton steps overshoot.
+Result<int> descend_damped(const std::vector<TravelResidual>& travels,
+                           const LayoutOptions& options,
+                           PlaceVector* places) {
   ceres::HuberLoss loss(options.outlier_sigmas > 0.0 ? options.outlier_sigmas : 1.0);
   std::deque<TravelCost> costs;  // Ceres keeps their addresses.
   ceres::Problem::Options ownership;
@@ -219,15 +243,24 @@ Result<PlaceLayout> solve_layout(int place_count,
   if (!places || chi2_at(*places, residuals) > 27.0 * static_cast<double>(travels.size())) {
     places = linear_start(place_count, travels);
   }
-  const Result<int> iterations =
-      place_count > 1 ? descend(residuals, options, &*places) : Result<int>(0);
+  if (place_count == 1) {
+    PlaceLayout layout = report(*places, residuals);
+    layout.covariances.resize(options.covariances ? 1 : 0, Matrix3d::Zero());
+    return layout;
+  }
+  NormalEquations equations(place_count, residuals);
+  std::optional<int> iterations = descend_freely(&equations, residuals, options, &*places);
   if (!iterations) {
-    return iterations.error();
+    const Result<int> damped = descend_damped(residuals, options, &*places);
+    if (!damped) {
+      return damped.error();
+    }
+    iterations = *damped;
   }
   PlaceLayout layout = report(*places, residuals);
   layout.iterations = *iterations;
-  if (options.covariances) {
-    layout.covariances = place_covariances(*places, residuals);
+  if (options.covariances && equations.expand_about(*places, 0.0)) {
+    layout.covariances = equations.place_covariances();
   }
   return layout;
 }

@@ -14,6 +14,9 @@ namespace cairn {
 namespace {
 
 constexpr double kFarthest_m = 1e6;
+constexpr int kCoarseFactor = 4;
+/// How far a path may be from the way over large cells, in small cells.
+constexpr int kGuideReach_cells = 7;
 
 std::string text_of(const Vector2d& point_m) {
   std::array<char, 64> text{};
@@ -99,7 +102,9 @@ Status validate(const PathOptions& options) {
 }
 
 PathPlanner::PathPlanner(const OccupancyGrid& grid, const PathOptions& options)
-    : options_(options), search_(grid, options.search) {
+    : options_(options),
+      search_(grid, options.search),
+      coarse_search_(search_.coarsened(kCoarseFactor)) {
   CAIRN_CHECK(validate(options).ok());
 }
 
@@ -166,40 +171,44 @@ Result<GridPath> PathPlanner::search_cells(Cell start,
                                            bool* left_corridor) {
   *left_corridor = false;
   if (!route_m.empty()) {
-    std::vector<Vector2d> line{search_.geometry().center_of(start)};
-    std::copy_if(route_m.begin(), route_m.end(), std::back_inserter(line), is_sound);
-    line.push_back(search_.geometry().center_of(goal));
-    mark_corridor(line);
-    Result<GridPath> path = search_.find_path_within(corridor_, start, goal);
+    std::vector<Vector2d> line_m{search_.geometry().center_of(start)};
+    std::copy_if(route_m.begin(), route_m.end(), std::back_inserter(line_m), is_sound);
+    line_m.push_back(search_.geometry().center_of(goal));
+    std::vector<Cell> line;
+    for (const Vector2d& point_m : resampled(line_m, 0.25 * options_.corridor_m)) {
+      line.push_back(search_.geometry().cell_at(point_m));
+    }
+    const int reach_cells = static_cast<int>(options_.corridor_m / search_.geometry().cell_m);
+    Result<GridPath> path = search_.find_path_near(line, reach_cells, start, goal);
     if (path) {
       return path;
     }
     *left_corridor = true;
   }
-  return search_.find_path(start, goal);
+  return guided_path(start, goal);
 }
 
-/// Allows the cells within the corridor about a line, as discs a part of its width apart.
-void PathPlanner::mark_corridor(const std::vector<Vector2d>& line_m) {
-  const GridGeometry& geometry = search_.geometry();
-  corridor_.assign(geometry.cell_count(), 0);
-  const double reach_cells = options_.corridor_m / geometry.cell_m;
-  for (const Vector2d& point_m : resampled(line_m, 0.25 * options_.corridor_m)) {
-    const Cell center = geometry.cell_at(point_m);
-    const int reach = static_cast<int>(reach_cells);
-    for (int y = std::max(0, center.y - reach);
-         y <= std::min(geometry.height - 1, center.y + reach); ++y) {
-      const double dy = y - center.y;
-      const int half = static_cast<int>(std::sqrt(reach_cells * reach_cells - dy * dy));
-      const int first = std::max(0, center.x - half);
-      const int last = std::min(geometry.width - 1, center.x + half);
-      if (first <= last) {
-        const auto begin =
-            corridor_.begin() + static_cast<std::ptrdiff_t>(geometry.index_of({first, y}));
-        std::fill(begin, begin + (last - first + 1), std::uint8_t{1});
-      }
+/// The best path near to the way over large cells.
+Result<GridPath> PathPlanner::guided_path(Cell start, Cell goal) {
+  const auto large_near = [&](Cell cell) {
+    const Cell large{cell.x / kCoarseFactor, cell.y / kCoarseFactor};
+    return coarse_search_.nearest_traversable(large, 2.0 * coarse_search_.geometry().cell_m);
+  };
+  const Result<Cell> large_start = large_near(start);
+  const Result<Cell> large_goal = large_near(goal);
+  if (large_start && large_goal) {
+    const Result<GridPath> guide = coarse_search_.find_path(*large_start, *large_goal);
+    std::vector<Cell> line;
+    for (const Cell large : guide ? guide->cells : std::vector<Cell>{}) {
+      line.push_back({large.x * kCoarseFactor + kCoarseFactor / 2,
+                      large.y * kCoarseFactor + kCoarseFactor / 2});
+    }
+    Result<GridPath> path = search_.find_path_near(line, kGuideReach_cells, start, goal);
+    if (path) {
+      return path;
     }
   }
+  return search_.find_path(start, goal);  // Through gaps that large cells do not show.
 }
 
 /// Corners of the path that are left when lines replace the cells between them wherever a line is

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,7 +41,9 @@ struct MetricPath {
 /// Metric paths over one occupancy grid.
 ///
 /// A route over places is refined to a path within a corridor about it; where that is blocked, the
-/// search is free. The path over cells is shortened by lines that are no more expensive than the
+/// search is free. A free search first finds the way over large cells and then the best path near
+/// to it, which is faster than over all cells and hardly longer; only where that fails, all cells
+/// are searched. The path over cells is shortened by lines that are no more expensive than the
 /// cells they replace, so it keeps its distance from walls, and is resampled.
 class PathPlanner {
  public:
@@ -68,7 +69,7 @@ class PathPlanner {
                                               Cell goal,
                                               const std::vector<Vector2d>& route_m,
                                               bool* left_corridor);
-  void mark_corridor(const std::vector<Vector2d>& line_m);
+  [[nodiscard]] Result<GridPath> guided_path(Cell start, Cell goal);
   [[nodiscard]] std::vector<Vector2d> shortened(const GridPath& path) const;
   [[nodiscard]] std::vector<Vector2d> with_exact_ends(const std::vector<Vector2d>& points_m,
                                                       const Vector2d& start_m,
@@ -77,7 +78,7 @@ class PathPlanner {
 
   PathOptions options_;
   GridSearch search_;
-  std::vector<std::uint8_t> corridor_;
+  GridSearch coarse_search_;
 };
 
 }  // namespace cairn

@@ -148,21 +148,53 @@ TEST(GridSearch, UnknownCellsAreBarredUnlessAllowedAndAreNoWalls) {
   GridSearchOptions options = point_robot();
   GridSearch careful(gap, options);
   EXPECT_FALSE(careful.find_path({0, 1}, {4, 1}));
-  EXPECT_DOUBLE_EQ(careful.clearance_m({1, 1}), 2.55);
+  EXPECT_DOUBLE_EQ(careful.clearance_m({1, 1}), 655.35);
   options.unknown_is_traversable = true;
   GridSearch bold(gap, options);
   EXPECT_TRUE(bold.find_path({0, 1}, {4, 1}));
 }
 
-TEST(GridSearch, MayBeKeptToAllowedCells) {
-  GridSearch search(grid_of({".....", ".###.", "....."}, 0.1), point_robot());
-  std::vector<std::uint8_t> allowed(15, 1);
-  allowed[2] = 0;  // The middle of the lower way.
-  const Result<GridPath> path = search.find_path_within(allowed, {0, 0}, {4, 0});
-  ASSERT_TRUE(path);
-  EXPECT_THAT(path->cells, ::testing::Contains(Cell{2, 2}));
-  allowed[12] = 0;
-  EXPECT_FALSE(search.find_path_within(allowed, {0, 0}, {4, 0}));
+TEST(GridSearch, MayBeKeptNearALine) {
+  GridSearch search(grid_of({"........", ".######.", "........", "........"}, 0.1), point_robot());
+  const Result<GridPath> near = search.find_path_near({{4, 3}}, 4, {0, 3}, {7, 3});
+  ASSERT_TRUE(near);
+  EXPECT_THAT(near->cells, ::testing::Contains(Cell{4, 3}));
+  EXPECT_FALSE(search.find_path_near({}, 2, {0, 0}, {7, 0}));
+  EXPECT_TRUE(search.find_path({0, 0}, {7, 0}));
+}
+
+TEST(GridSearch, NearEverythingIsTheSameAsAnywhere) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    GridSearch search(random_grid(seed, 20), point_robot());
+    const Result<GridPath> near = search.find_path_near({{10, 10}}, 30, {0, 0}, {19, 19});
+    const Result<GridPath> path = search.find_path({0, 0}, {19, 19});
+    ASSERT_EQ(near.ok(), path.ok());
+    if (path) {
+      EXPECT_EQ(near->cells, path->cells);
+    }
+  }
+}
+
+TEST(GridSearch, LargerCellsShowAGapOfHalfTheirWidth) {
+  const OccupancyGrid gap = grid_of({".....#......",  //
+                                     ".....#......",  //
+                                     ".....#......",  //
+                                     ".....#......",  //
+                                     ".....#......",  //
+                                     "............",  //
+                                     "............",  //
+                                     ".....#......"},
+                                    0.1);
+  GridSearchOptions options = point_robot();
+  GridSearch coarse = GridSearch(gap, options).coarsened(4);
+  EXPECT_EQ(coarse.geometry().width, 3);
+  EXPECT_EQ(coarse.geometry().height, 2);
+  EXPECT_DOUBLE_EQ(coarse.geometry().cell_m, 0.4);
+  EXPECT_TRUE(coarse.find_path({0, 0}, {2, 0}));
+  options.robot_radius_m = 0.3;
+  GridSearch wide = GridSearch(gap, options).coarsened(4);
+  EXPECT_FALSE(wide.is_traversable({1, 0}));
 }
 
 TEST(GridSearch, ALineIsAsCheapAsTheWayAlongIt) {
