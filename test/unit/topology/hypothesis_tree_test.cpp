@@ -68,8 +68,10 @@ TEST(HypothesisTree, AroundABlockItHoldsEveryLoopAndTheChain) {
   EXPECT_THAT(robot.tree().fringe(), SizeIs(4));
 }
 
-TEST(HypothesisTree, PrefersFewestPathsThenPlaces) {
-  const Traveller robot = around_the_block();
+TEST(HypothesisTree, TheSimplestHasFewestPathsThenPlaces) {
+  TopologyOptions options;
+  options.preference = Preference::kSimplest;
+  const Traveller robot = around_the_block(options);
   std::vector<int> paths;
   for (const Hypothesis& leaf : robot.tree().fringe()) {
     paths.push_back(leaf.map.path_count());
@@ -249,6 +251,27 @@ TEST(HypothesisTree, GoesOnAfterAContradiction) {
   EXPECT_EQ(again.rejoins, 1);
   EXPECT_FALSE(again.was_break_needed);
   EXPECT_EQ(robot.best().map.place_count(), 3);
+}
+
+TEST(HypothesisTree, WithEvidenceAContradictedHypothesisLivesOnAndMayBeProvenRight) {
+  // On its third lap the robot takes a corner for a tee. That it was on its way all the same shows
+  // when the next corners are recognised.
+  Evidence evidence;
+  evidence.same_place = [](const TopologicalMap& before, VisitId visit, PlaceId same_as, int) {
+    return before.first_visit(same_as).value % 4 == visit.value % 4 ? 8.0 : -8.0;
+  };
+  Traveller robot = around_the_block({}, evidence);
+  for (int visit = 5; visit < 9; ++visit) {
+    robot.travel(1, corner(), 1);
+  }
+  const ExtendReport misread = robot.travel(1, tee(), 2);
+  EXPECT_GT(misread.breaks, 0);
+  robot.travel(1, corner(), 1);
+  robot.travel(1, corner(), 1);
+  const Hypothesis& best = robot.best();
+  EXPECT_EQ(best.contradictions, 2);
+  EXPECT_EQ(best.map.place_count(), 5);  // The block and the misread corner.
+  EXPECT_EQ(best.map.at_visit(VisitId{11}).place, best.map.at_visit(VisitId{3}).place);
 }
 
 TEST(HypothesisTree, OnlyTheBestSurviveAContradiction) {
