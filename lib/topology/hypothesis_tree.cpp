@@ -34,6 +34,12 @@ bool comes_before(const Rank& a, const Rank& b, Preference preference) {
          std::tuple(simplicity(b), -b.log_posterior, b.age);
 }
 
+void give_up_guarantee(GuaranteeLoss loss, std::string reason, ExtendReport& report) {
+  if (!report.guarantee_given_up) {
+    report.guarantee_given_up = GuaranteeGivenUp{report.visit, loss, std::move(reason)};
+  }
+}
+
 Rank rank_of(const Hypothesis& hypothesis) {
   return {hypothesis.log_posterior(), hypothesis.contradictions, hypothesis.map.path_count(),
           hypothesis.map.place_count(), hypothesis.id.value};
@@ -117,11 +123,17 @@ std::vector<HypothesisTree::Candidate> HypothesisTree::successors(const Experien
         count_refuted(alternative, report);
       }
     }
-    if (options_.keep_contradicted && evidence_.same_place && candidates.size() == before) {
+    if (candidates.size() == before && may_go_on_contradicted(fringe_[leaf].map, now.action)) {
       candidates.push_back(broken(leaf, now, report));
     }
   }
   return candidates;
+}
+
+bool HypothesisTree::may_go_on_contradicted(const TopologicalMap& map, Action action) const {
+  return options_.keep_contradicted && evidence_.same_place &&
+         !map.is_pending(map.departure(action)) &&
+         map.place_count() < options_.max_places.value_or(std::numeric_limits<int>::max());
 }
 
 HypothesisTree::Candidate HypothesisTree::broken(std::size_t leaf,
@@ -268,14 +280,6 @@ void HypothesisTree::rank() {
   std::sort(fringe_.begin(), fringe_.end(), [&](const Hypothesis& a, const Hypothesis& b) {
     return comes_before(rank_of(a), rank_of(b), options_.preference);
   });
-}
-
-void HypothesisTree::give_up_guarantee(GuaranteeLoss loss,
-                                       std::string reason,
-                                       ExtendReport& report) const {
-  if (!report.guarantee_given_up) {
-    report.guarantee_given_up = GuaranteeGivenUp{report.visit, loss, std::move(reason)};
-  }
 }
 
 }  // namespace cairn

@@ -116,6 +116,7 @@ class HypothesisTree {
 
   Arrival recognise(const View& view);
   std::vector<Candidate> successors(const Experienced& now, ExtendReport& report) const;
+  [[nodiscard]] bool may_go_on_contradicted(const TopologicalMap& map, Action action) const;
   [[nodiscard]] Candidate broken(std::size_t leaf,
                                  const Experienced& now,
                                  ExtendReport& report) const;
@@ -129,7 +130,6 @@ class HypothesisTree {
   void lay_out(ExtendReport& report);
   void rank();
   void forget_the_dead();
-  void give_up_guarantee(GuaranteeLoss loss, std::string reason, ExtendReport& report) const;
   [[nodiscard]] const Node* find_node(HypothesisId id) const;
   [[nodiscard]] const Hypothesis& leaf_of(HypothesisId id) const;
   [[nodiscard]] std::string describe(const TopologicalMap& map,

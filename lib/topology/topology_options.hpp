@@ -21,7 +21,8 @@ struct TopologyOptions {
   bool planar = true;              ///< No path segment crosses another: corridors of one storey.
   bool region_consistent = false;  ///< Every path must separate a left from a right.
   std::optional<int> max_places;   ///< Maps do not grow beyond; without a value, unbounded. >= 1
-  int max_hypotheses = 2000;       ///< Live hypotheses kept; the best ones stay. [1, 10000000]
+  /// Live hypotheses kept: the best ones, judged before the new layouts are known. [1, 10000000]
+  int max_hypotheses = 2000;
   int max_broken_hypotheses = 32;  ///< Of these, how many survive a contradiction. [1, 10000000]
   /// With evidence of same places, every hypothesis that a visit contradicts lives on with an
   /// unexplained gateway, at log_penalty_break: stars are misread now and then, and what follows
