@@ -249,6 +249,8 @@ void HypothesisTree::grow(const std::vector<Candidate>& candidates, const Arriva
       nodes_.push_back({child.id, child.parent, arrival.visit, next.step});
     }
     apply(next.step, arrival, child.map);
+    CAIRN_CHECK(child.map.path_count() == next.path_count &&
+                child.map.place_count() == next.place_count);  // What it was ranked by.
     grown.push_back(std::move(child));
   }
   fringe_ = std::move(grown);
