@@ -45,8 +45,9 @@ struct ExtendReport {
   std::int64_t layouts_evaluated = 0;
   std::int64_t layouts_deferred = 0;  ///< Leaves whose posterior is an upper bound only.
 
-  bool was_break_needed = false;
-  std::int64_t dropped = 0;  ///< By the budget, or not among the best at a break.
+  std::int64_t breaks = 0;        ///< Leaves that go on although the visit contradicts them.
+  bool was_break_needed = false;  ///< No leaf explains the visit.
+  std::int64_t dropped = 0;       ///< By the budget, or not among the best at a break.
   /// Posterior (before the layout) of the best that the budget dropped.
   double best_dropped_log_posterior = -std::numeric_limits<double>::infinity();
   std::optional<GuaranteeGivenUp> guarantee_given_up;  ///< At this visit.

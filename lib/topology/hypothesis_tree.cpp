@@ -16,6 +16,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// What a preference compares; `age` decides between equals, so that the order is reproducible.
 struct Rank {
   double log_posterior = 0.0;
+  int contradictions = 0;
   int path_count = 0;
   int place_count = 0;
   std::int64_t age = 0;
@@ -23,7 +24,7 @@ struct Rank {
 
 bool comes_before(const Rank& a, const Rank& b, Preference preference) {
   const auto simplicity = [](const Rank& rank) {
-    return std::tuple(rank.path_count, rank.place_count);
+    return std::tuple(rank.contradictions, rank.path_count, rank.place_count);
   };
   if (preference == Preference::kPosterior) {
     return std::tuple(-a.log_posterior, simplicity(a), a.age) <
@@ -33,9 +34,15 @@ bool comes_before(const Rank& a, const Rank& b, Preference preference) {
          std::tuple(simplicity(b), -b.log_posterior, b.age);
 }
 
+void give_up_guarantee(GuaranteeLoss loss, std::string reason, ExtendReport& report) {
+  if (!report.guarantee_given_up) {
+    report.guarantee_given_up = GuaranteeGivenUp{report.visit, loss, std::move(reason)};
+  }
+}
+
 Rank rank_of(const Hypothesis& hypothesis) {
-  return {hypothesis.log_posterior(), hypothesis.map.path_count(), hypothesis.map.place_count(),
-          hypothesis.id.value};
+  return {hypothesis.log_posterior(), hypothesis.contradictions, hypothesis.map.path_count(),
+          hypothesis.map.place_count(), hypothesis.id.value};
 }
 
 }  // namespace
@@ -67,7 +74,11 @@ ExtendReport HypothesisTree::extend(Action action, const View& view) {
   report.visit = view.visit;
   std::vector<Candidate> candidates = successors(now, report);
   if (candidates.empty()) {
-    candidates = breaks(now, report);
+    candidates = break_all(now, report);
+  }
+  report.was_break_needed = report.breaks == static_cast<std::int64_t>(candidates.size());
+  if (report.was_break_needed) {
+    give_up_guarantee(GuaranteeLoss::kContradiction, contradiction(now), report);
   }
   keep_best(candidates, report);
   grow(candidates, now.arrival);
@@ -102,6 +113,7 @@ std::vector<HypothesisTree::Candidate> HypothesisTree::successors(const Experien
                                                                   ExtendReport& report) const {
   std::vector<Candidate> candidates;
   for (std::size_t leaf = 0; leaf < fringe_.size(); ++leaf) {
+    const std::size_t before = candidates.size();
     for (const Alternative& alternative :
          alternatives(fringe_[leaf].map, now.action, now.arrival, options_, evidence_)) {
       if (alternative.refuted_by == Refutation::kNone) {
@@ -111,35 +123,53 @@ std::vector<HypothesisTree::Candidate> HypothesisTree::successors(const Experien
         count_refuted(alternative, report);
       }
     }
+    if (candidates.size() == before && may_go_on_contradicted(fringe_[leaf].map, now.action)) {
+      candidates.push_back(broken(leaf, now, report));
+    }
   }
   return candidates;
 }
 
-std::vector<HypothesisTree::Candidate> HypothesisTree::breaks(const Experienced& now,
-                                                              ExtendReport& report) const {
+bool HypothesisTree::may_go_on_contradicted(const TopologicalMap& map, Action action) const {
+  return options_.keep_contradicted && evidence_.same_place &&
+         !map.is_pending(map.departure(action)) &&
+         map.place_count() < options_.max_places.value_or(std::numeric_limits<int>::max());
+}
+
+HypothesisTree::Candidate HypothesisTree::broken(std::size_t leaf,
+                                                 const Experienced& now,
+                                                 ExtendReport& report) const {
+  const TopologicalMap& map = fringe_[leaf].map;
+  const GatewayRef departure = map.departure(now.action);
+  // From a pending gateway only the bound on places can have left no way out.
+  Alternative alternative{
+      {map.is_pending(departure) ? StepKind::kNewPlace : StepKind::kContradiction, departure, {}}};
+  alternative.log_likelihood = options_.log_prior_new_place - options_.log_penalty_break;
+  count_possible(alternative.step.kind, report);
+  ++report.breaks;
+  return candidate(leaf, alternative, now.arrival);
+}
+
+std::vector<HypothesisTree::Candidate> HypothesisTree::break_all(const Experienced& now,
+                                                                 ExtendReport& report) const {
   const auto most = static_cast<std::size_t>(options_.max_broken_hypotheses);
   std::vector<Candidate> candidates;
   for (std::size_t leaf = 0; leaf < std::min(most, fringe_.size()); ++leaf) {
-    const TopologicalMap& map = fringe_[leaf].map;
-    const GatewayRef departure = map.departure(now.action);
-    // From a pending gateway only the bound on places can have left no way out.
-    Alternative broken{{map.is_pending(departure) ? StepKind::kNewPlace : StepKind::kContradiction,
-                        departure,
-                        {}}};
-    broken.log_likelihood = options_.log_prior_new_place - options_.log_penalty_break;
-    count_possible(broken.step.kind, report);
-    candidates.push_back(candidate(leaf, broken, now.arrival));
+    candidates.push_back(broken(leaf, now, report));
   }
-  report.was_break_needed = true;
   report.dropped = static_cast<std::int64_t>(fringe_.size() - candidates.size());
+  return candidates;
+}
+
+/// The best hypothesis stands for all: it is the one an operator will ask about.
+std::string HypothesisTree::contradiction(const Experienced& now) const {
   const TopologicalMap& best = fringe_.front().map;
-  std::string reason = "no hypothesis explains the visit; in the best one: ";
+  std::string text = "no hypothesis explains the visit; in the best one: ";
   for (const Alternative& alternative :
        alternatives(best, now.action, now.arrival, options_, evidence_)) {
-    reason += describe(best, alternative, now.arrival) + "; ";
+    text += describe(best, alternative, now.arrival) + "; ";
   }
-  give_up_guarantee(GuaranteeLoss::kContradiction, reason.substr(0, reason.size() - 2), report);
-  return candidates;
+  return text.substr(0, text.size() - 2);
 }
 
 HypothesisTree::Candidate HypothesisTree::candidate(std::size_t leaf,
@@ -149,12 +179,17 @@ HypothesisTree::Candidate HypothesisTree::candidate(std::size_t leaf,
   const StepKind kind = alternative.step.kind;
   const bool is_place_added = kind == StepKind::kNewPlace || kind == StepKind::kContradiction;
   // A link joins two paths; a break adds the fragments of its place without a link.
-  const bool is_link_added = kind == StepKind::kNewPlace || kind == StepKind::kClosure;
+  const bool is_link_added =
+      kind == StepKind::kNewPlace || kind == StepKind::kClosure ||
+      (kind == StepKind::kMisread && parent.map.is_pending(alternative.step.departure));
   Candidate next;
   next.leaf = leaf;
   next.step = alternative.step;
   next.log_steps = parent.log_steps + alternative.log_likelihood;
   next.log_posterior = next.log_steps + parent.log_layout;
+  const bool is_contradiction =
+      kind == StepKind::kContradiction || kind == StepKind::kMisread || kind == StepKind::kRejoin;
+  next.contradictions = parent.contradictions + (is_contradiction ? 1 : 0);
   next.path_count = parent.map.path_count() - (is_link_added ? 1 : 0) +
                     (is_place_added ? stars_->fragment_count(arrival.star) : 0);
   next.place_count = parent.map.place_count() + (is_place_added ? 1 : 0);
@@ -171,7 +206,7 @@ void HypothesisTree::keep_best(std::vector<Candidate>& candidates, ExtendReport&
   const auto is_better = [&](std::size_t a, std::size_t b) {
     const auto rank_at = [&](std::size_t index) {
       const Candidate& next = candidates[index];
-      return Rank{next.log_posterior, next.path_count, next.place_count,
+      return Rank{next.log_posterior, next.contradictions, next.path_count, next.place_count,
                   static_cast<std::int64_t>(index)};
     };
     return comes_before(rank_at(a), rank_at(b), options_.preference);
@@ -205,14 +240,17 @@ void HypothesisTree::grow(const std::vector<Candidate>& candidates, const Arriva
     Hypothesis& parent = fringe_[next.leaf];
     const bool is_last_child =
         index + 1 == candidates.size() || candidates[index + 1].leaf != next.leaf;
-    Hypothesis child{parent.id, parent.parent, is_last_child ? std::move(parent.map) : parent.map,
-                     next.log_steps, parent.log_layout};
+    Hypothesis child{
+        parent.id,      parent.parent,     is_last_child ? std::move(parent.map) : parent.map,
+        next.log_steps, parent.log_layout, next.contradictions};
     if (next.step.kind != StepKind::kKnownLink) {
       child.id = HypothesisId{next_id_++};
       child.parent = parent.id;
       nodes_.push_back({child.id, child.parent, arrival.visit, next.step});
     }
     apply(next.step, arrival, child.map);
+    CAIRN_CHECK(child.map.path_count() == next.path_count &&
+                child.map.place_count() == next.place_count);  // What it was ranked by.
     grown.push_back(std::move(child));
   }
   fringe_ = std::move(grown);
@@ -244,14 +282,6 @@ void HypothesisTree::rank() {
   std::sort(fringe_.begin(), fringe_.end(), [&](const Hypothesis& a, const Hypothesis& b) {
     return comes_before(rank_of(a), rank_of(b), options_.preference);
   });
-}
-
-void HypothesisTree::give_up_guarantee(GuaranteeLoss loss,
-                                       std::string reason,
-                                       ExtendReport& report) const {
-  if (!report.guarantee_given_up) {
-    report.guarantee_given_up = GuaranteeGivenUp{report.visit, loss, std::move(reason)};
-  }
 }
 
 }  // namespace cairn

@@ -19,6 +19,8 @@ struct Hypothesis {
   TopologicalMap map;
   double log_steps = 0.0;   ///< Priors, evidence of same places, penalties.
   double log_layout = 0.0;  ///< Of the metrical layout; the parent's where deferred.
+  int contradictions =
+      0;  ///< Breaks, misread stars, rejoined places: what the map fails to explain.
   bool is_layout_deferred = false;
 
   /// Natural logarithm, not normalised. An upper bound where the layout is deferred.
@@ -34,7 +36,8 @@ struct Hypothesis {
 /// each arrival says when this is given up.
 ///
 /// When every leaf is refuted, the best of them go on with the arrival as a new place behind an
-/// unexplained gateway (a break), so that the tree is never empty.
+/// unexplained gateway (a break), so that the tree is never empty. With evidence, every refuted
+/// leaf may go on so and compete by its posterior (keep_contradicted).
 ///
 /// Source: Fig. 4 of Kuipers et al., ICRA 2004; Fig. 2 of Savelli and Kuipers, IROS 2004.
 /// Reproducible: same calls, same ids in the same order.
@@ -102,6 +105,7 @@ class HypothesisTree {
     Step step;
     double log_steps = 0.0;
     double log_posterior = 0.0;
+    int contradictions = 0;
     int path_count = 0;
     int place_count = 0;
   };
@@ -112,7 +116,12 @@ class HypothesisTree {
 
   Arrival recognise(const View& view);
   std::vector<Candidate> successors(const Experienced& now, ExtendReport& report) const;
-  std::vector<Candidate> breaks(const Experienced& now, ExtendReport& report) const;
+  [[nodiscard]] bool may_go_on_contradicted(const TopologicalMap& map, Action action) const;
+  [[nodiscard]] Candidate broken(std::size_t leaf,
+                                 const Experienced& now,
+                                 ExtendReport& report) const;
+  std::vector<Candidate> break_all(const Experienced& now, ExtendReport& report) const;
+  [[nodiscard]] std::string contradiction(const Experienced& now) const;
   [[nodiscard]] Candidate candidate(std::size_t leaf,
                                     const Alternative& alternative,
                                     const Arrival& arrival) const;
@@ -121,7 +130,6 @@ class HypothesisTree {
   void lay_out(ExtendReport& report);
   void rank();
   void forget_the_dead();
-  void give_up_guarantee(GuaranteeLoss loss, std::string reason, ExtendReport& report) const;
   [[nodiscard]] const Node* find_node(HypothesisId id) const;
   [[nodiscard]] const Hypothesis& leaf_of(HypothesisId id) const;
   [[nodiscard]] std::string describe(const TopologicalMap& map,

@@ -159,7 +159,7 @@ const HypothesisTree::Node* HypothesisTree::find_node(HypothesisId id) const {
 }
 
 void HypothesisTree::forget_the_dead() {
-  constexpr std::size_t kSpareNodes = 65'536;  // So that small trees are never cut.
+  constexpr std::size_t kSpareNodes = 4'096;  // So that small trees are never cut.
   if (nodes_.size() <= 2 * nodes_to_keep_ + kSpareNodes) {
     return;
   }

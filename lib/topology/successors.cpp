@@ -59,7 +59,7 @@ class Judge {
           continue;
         }
         if (map_.is_pending(at)) {
-          all.push_back(closure(at));
+          consider_closing(at, all);
         } else {
           consider_rejoining(at, all);
         }
@@ -91,20 +91,26 @@ class Judge {
     }
   }
 
-  [[nodiscard]] Alternative closure(GatewayRef target) const {
+  void consider_closing(GatewayRef target, std::vector<Alternative>& all) const {
     Alternative closure{{StepKind::kClosure, departure_, target}};
-    closure.refuted_by = refutation_of_closure(target);
+    if (!sees(target)) {
+      closure.refuted_by = Refutation::kOtherView;
+      all.push_back(closure);
+      if (evidence_.same_place && has_as_many_gateways(target.place) &&
+          refutation_of_link(target) == Refutation::kNone) {
+        consider_misreading(target, all);
+      }
+      return;
+    }
+    closure.refuted_by = refutation_of_link(target);
     if (closure.refuted_by == Refutation::kNone) {
       closure.log_likelihood = recognition(target);
       refute_by_evidence(closure);
     }
-    return closure;
+    all.push_back(closure);
   }
 
-  [[nodiscard]] Refutation refutation_of_closure(GatewayRef target) const {
-    if (!sees(target)) {
-      return Refutation::kOtherView;
-    }
+  [[nodiscard]] Refutation refutation_of_link(GatewayRef target) const {
     if (options_.planar && map_.component(target.place) == map_.component(departure_.place) &&
         !std::binary_search(own_face_.begin(), own_face_.end(), target)) {
       return Refutation::kOtherFace;
@@ -206,10 +212,12 @@ void apply(const Step& step, const Arrival& arrival, TopologicalMap& map) {
     case StepKind::kStart:
       break;
     case StepKind::kKnownLink:
-    case StepKind::kMisread:
       return map.follow(step.departure, arrival);
     case StepKind::kClosure:
       return map.close(step.departure, step.target, arrival);
+    case StepKind::kMisread:
+      return map.is_pending(step.departure) ? map.close(step.departure, step.target, arrival)
+                                            : map.follow(step.departure, arrival);
     case StepKind::kNewPlace:
       return map.add_place(step.departure, arrival);
     case StepKind::kRejoin:

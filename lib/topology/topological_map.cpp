@@ -99,8 +99,7 @@ void TopologicalMap::rejoin(GatewayRef departure, GatewayRef target, const Arriv
 
 GatewayRef TopologicalMap::append_place(const Arrival& arrival, int component) {
   const PlaceId place{static_cast<std::int32_t>(places_.size())};
-  places_.push_back(
-      {arrival.star, static_cast<std::int32_t>(exits_.size()), component, arrival.visit});
+  places_.push_back({arrival.star, exits_.size(), component, arrival.visit});
   const int gateways = stars_->gateway_count(arrival.star);
   exits_.resize(exits_.size() + static_cast<std::size_t>(gateways));
   pending_count_ += gateways;

@@ -121,14 +121,14 @@ class TopologicalMap {
  private:
   struct Place {
     StarId star;
-    std::int32_t first_exit = 0;  ///< Position of its gateway 0 in exits_.
+    std::size_t first_exit = 0;  ///< Position of its gateway 0 in exits_.
     std::int32_t component = 0;
     VisitId first_visit;
   };
 
   [[nodiscard]] StarId star_of(PlaceId place) const { return places_[place.index()].star; }
   [[nodiscard]] std::size_t exit_index(GatewayRef at) const {
-    return static_cast<std::size_t>(places_[at.place.index()].first_exit + at.gateway);
+    return places_[at.place.index()].first_exit + static_cast<std::size_t>(at.gateway);
   }
   [[nodiscard]] GatewayRef exit(GatewayRef at) const { return exits_[exit_index(at)]; }
   GatewayRef append_place(const Arrival& arrival, int component);

@@ -56,13 +56,12 @@ TopologyOptions spatial() {
   return options;
 }
 
-constexpr const char* kSnake3x3 = "EESWWSEENNWSSWNN";
+// The column of the paper stands for this walk, not for the snake.
 constexpr const char* kWalk3x4 = "ESSENNESSWWWNEEENWWWS";
-constexpr const char* kSnake4x4 = "EEESWWWSEEESWWWNNNESSSENNNESSS";
 
 TEST(SavelliKuipersFigure4, GridOf3x3) {
-  EXPECT_EQ(explore({3, 3}, kSnake3x3, spatial()), (Counts{317, 188, 88, 6, 2, 2}));
-  EXPECT_EQ(explore({3, 3}, kSnake3x3, {}), (Counts{240, 147, 62, 3, 1, 1}));
+  EXPECT_EQ(explore({3, 3}, snake_moves(3, 3), spatial()), (Counts{317, 188, 88, 6, 2, 2}));
+  EXPECT_EQ(explore({3, 3}, snake_moves(3, 3), {}), (Counts{240, 147, 62, 3, 1, 1}));
 }
 
 TEST(SavelliKuipersFigure4, GridOf3x4) {
@@ -73,18 +72,31 @@ TEST(SavelliKuipersFigure4, GridOf3x4) {
 TEST(SavelliKuipersFigure4, GridOf4x4WithAtMost16PlacesInThePlane) {
   TopologyOptions options;
   options.max_places = 16;
-  EXPECT_EQ(explore({4, 4}, kSnake4x4, options), (Counts{8452, 4951, 545, 58, 2, 1}));
+  EXPECT_EQ(explore({4, 4}, snake_moves(4, 4), options), (Counts{8452, 4951, 545, 58, 2, 1}));
 }
 
 TEST(SavelliKuipersFigure4, GridOf4x4WithAtMost16PlacesWithoutPlanarity) {
   TopologyOptions options = spatial();
   options.max_places = 16;
-  EXPECT_EQ(explore({4, 4}, kSnake4x4, options), (Counts{192569, 93034, 23685, 6992, 2, 256}));
+  EXPECT_EQ(explore({4, 4}, snake_moves(4, 4), options),
+            (Counts{192569, 93034, 23685, 6992, 2, 256}));
 }
 
-// Beyond the paper: what it says does not terminate in reasonable time.
+// Beyond the paper: what it says does not terminate in reasonable time, and larger grids.
 TEST(SavelliKuipersFigure4, GridOf4x4WithoutABoundInThePlane) {
-  EXPECT_EQ(explore({4, 4}, kSnake4x4, {}), (Counts{223865, 164467, 49123, 58, 2, 1}));
+  EXPECT_EQ(explore({4, 4}, snake_moves(4, 4), {}), (Counts{223865, 164467, 49123, 58, 2, 1}));
+}
+
+TEST(SavelliKuipersFigure4, GridOf3x5) {
+  EXPECT_EQ(explore({3, 5}, snake_moves(3, 5), spatial()),
+            (Counts{178312, 132141, 37345, 192, 48, 48}));
+  EXPECT_EQ(explore({3, 5}, snake_moves(3, 5), {}), (Counts{21931, 17732, 4274, 5, 1, 1}));
+}
+
+TEST(SavelliKuipersFigure4, GridOf4x5WithAtMost20PlacesInThePlane) {
+  TopologyOptions options;
+  options.max_places = 20;
+  EXPECT_EQ(explore({4, 5}, snake_moves(4, 5), options), (Counts{247434, 208434, 1993, 4, 1, 1}));
 }
 
 }  // namespace

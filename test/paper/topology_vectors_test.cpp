@@ -135,6 +135,7 @@ TEST(OfficeExperiment, RegionConsistencyAsAnAxiomGives83MapsAnd46InThePlane) {
       TopologyOptions options;
       options.planar = planar;
       options.region_consistent = true;
+      options.preference = Preference::kSimplest;
       const Explored explored = explore(vector, stars, options);
       const Json& expected = vector[planar ? "planar" : "nonplanar"];
       EXPECT_EQ(explored.tree.fringe().size(), planar ? 46U : 83U);

@@ -12,6 +12,22 @@
 
 namespace cairn::test {
 
+/// Every row, alternately east and west, from the north-west corner; then, from the corner reached,
+/// every column: how Savelli and Kuipers, IROS 2004, explore grids.
+inline std::string snake_moves(int rows, int columns) {
+  std::string moves;
+  for (int row = 0; row < rows; ++row) {
+    moves += std::string(row > 0 ? 1 : 0, 'S');
+    moves += std::string(static_cast<std::size_t>(columns - 1), row % 2 == 0 ? 'E' : 'W');
+  }
+  const char sideways = rows % 2 == 0 ? 'E' : 'W';
+  for (int column = 0; column < columns; ++column) {
+    moves += std::string(column > 0 ? 1 : 0, sideways);
+    moves += std::string(static_cast<std::size_t>(rows - 1), column % 2 == 0 ? 'N' : 'S');
+  }
+  return moves;
+}
+
 /// A travel and the view at its end.
 struct Experienced {
   Action action;

@@ -71,6 +71,17 @@ TEST(Alternatives, StayWithinOneFaceInThePlane) {
   EXPECT_EQ(to(bridged, {PlaceId{1}, 3}).refuted_by, Refutation::kNone);
 }
 
+TEST(Alternatives, JoinAPartLeftByAContradictionToAnyFace) {
+  MapBuilder map = MapBuilder(crossing(), 0)
+                       .add_place(2, crossing(), 0)
+                       .add_place(2, crossing(), 0)
+                       .close(2, {PlaceId{0}, 0});
+  map.contradict(0, crossing(), 0);
+  const auto all = alternatives(map.map(), {2}, map.arrive(crossing(), 0), {}, {});
+  EXPECT_EQ(to(all, {PlaceId{1}, 1}).refuted_by, Refutation::kNone);
+  EXPECT_EQ(to(all, {PlaceId{1}, 3}).refuted_by, Refutation::kNone);
+}
+
 TEST(Alternatives, KeepTheSidesOfPathsApartIfAsked) {
   MapBuilder walked = MapBuilder(corner(), 0).add_place(0, corner(), 1);
   const Arrival arrival = walked.arrive(corner(), 1);
@@ -127,6 +138,24 @@ TEST(Alternatives, StrongEvidenceOverrulesAMisreadStar) {
   EXPECT_DOUBLE_EQ(all[1].log_likelihood, 30.0 - TopologyOptions{}.log_penalty_misread);
   // Without the same number of gateways there is no shift.
   EXPECT_THAT(alternatives(walked.map(), {0}, walked.arrive(tee(), 0), {}, evidence), SizeIs(1));
+}
+
+TEST(Alternatives, StrongEvidenceClosesALoopDespiteAMisreadStar) {
+  const Star both_end = star_of({0, 1, -1, -1}, {3, 2, 1, 0});
+  MapBuilder walked = MapBuilder(corner(), 0).add_place(0, corner(), 1).add_place(1, corner(), 1);
+  Evidence evidence;
+  evidence.same_place = [](const TopologicalMap&, VisitId, PlaceId same_as, int) {
+    return same_as == PlaceId{0} ? 30.0 : -30.0;
+  };
+  const Arrival arrival = walked.arrive(both_end, 1);
+  const auto all = alternatives(walked.map(), {1}, arrival, {}, evidence);
+  ASSERT_THAT(all, SizeIs(3));
+  EXPECT_EQ(all[0].refuted_by, Refutation::kOtherView);
+  EXPECT_EQ(all[1].step.kind, StepKind::kMisread);
+  EXPECT_EQ(all[2].step.kind, StepKind::kNewPlace);
+  TopologicalMap closed = walked.map();
+  apply(all[1].step, arrival, closed);
+  EXPECT_TRUE(closed.is_closed());
 }
 
 TEST(Alternatives, StrongEvidenceOverrulesALinkOfAContradictedMap) {
