@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "base/check.hpp"
 
@@ -16,6 +17,10 @@ double least_magnitude(double low, double high) {
 }
 
 }  // namespace
+
+bool CorrelativeSearch::is_worse(const Candidate& a, const Candidate& b) {
+  return std::tie(a.bound, a.angle, a.y, a.x) < std::tie(b.bound, b.angle, b.y, b.x);
+}
 
 void CorrelativeSearch::prepare(const DistanceField& walls, double hit_sigma_m) {
   geometry_ = walls.geometry();
@@ -51,13 +56,13 @@ void CorrelativeSearch::prepare(const DistanceField& walls, double hit_sigma_m) 
   }
 }
 
-SearchResult CorrelativeSearch::find(const std::vector<Vector2d>& p_body,
+SearchResult CorrelativeSearch::find(const std::vector<SurfacePoint>& points,
                                      const SearchWindow& window) {
   CAIRN_CHECK(!pyramid_.empty());
-  if (p_body.empty()) {
+  if (points.empty()) {
     return {window.center, 0.0};
   }
-  place_points(p_body, window);
+  place_points(points, window);
   open_.clear();
   best_ = {};
   best_.bound = -1e300;
@@ -74,8 +79,7 @@ SearchResult CorrelativeSearch::find(const std::vector<Vector2d>& p_body,
     }
   }
   // The best last, so that it is taken first; equal ones in a fixed order.
-  std::stable_sort(open_.begin(), open_.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.bound < b.bound; });
+  std::sort(open_.begin(), open_.end(), is_worse);
   while (!open_.empty()) {
     const Candidate next = open_.back();
     open_.pop_back();
@@ -89,24 +93,24 @@ SearchResult CorrelativeSearch::find(const std::vector<Vector2d>& p_body,
   return result;
 }
 
-void CorrelativeSearch::place_points(const std::vector<Vector2d>& p_body,
+void CorrelativeSearch::place_points(const std::vector<SurfacePoint>& points,
                                      const SearchWindow& window) {
   double farthest_m = 1.0;
-  for (const Vector2d& p : p_body) {
-    farthest_m = std::max(farthest_m, p.norm());
+  for (const SurfacePoint& point : points) {
+    farthest_m = std::max(farthest_m, point.p.norm());
   }
   constexpr int kMaxAngles = 2'000;
   const int wanted = static_cast<int>(std::ceil(window.turn_rad * farthest_m / geometry_.cell_m));
   angle_count_ = std::clamp(wanted, 0, kMaxAngles);
   angle_step_rad_ = angle_count_ > 0 ? window.turn_rad / angle_count_ : 0.0;
   range_cells_ = static_cast<int>(std::ceil(window.range_m / geometry_.cell_m));
-  point_count_ = p_body.size();
+  point_count_ = points.size();
   points_.clear();
   for (int angle = -angle_count_; angle <= angle_count_; ++angle) {
     const Pose2 pose(window.center.translation(), window.center.theta() + angle * angle_step_rad_);
     const double c = std::cos(pose.theta());
     const double s = std::sin(pose.theta());
-    for (const Vector2d& p : p_body) {
+    for (const auto& [p, normal] : points) {
       points_.push_back(
           geometry_.cell_at({pose.x() + c * p.x() - s * p.y(), pose.y() + s * p.x() + c * p.y()}));
     }
@@ -167,8 +171,7 @@ void CorrelativeSearch::branch(const Candidate& block, const SearchWindow& windo
       push({block.angle, block.x + dx, block.y + dy, block.level - 1, 0.0}, window);
     }
   }
-  std::stable_sort(open_.begin() + static_cast<std::ptrdiff_t>(first), open_.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.bound < b.bound; });
+  std::sort(open_.begin() + static_cast<std::ptrdiff_t>(first), open_.end(), is_worse);
 }
 
 }  // namespace cairn

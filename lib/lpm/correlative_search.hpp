@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lpm/distance_field.hpp"
+#include "lpm/scan_refinement.hpp"
 
 namespace cairn {
 
@@ -35,8 +36,10 @@ class CorrelativeSearch {
   /// @param hit_sigma_m spread of a point around a wall, > 0
   void prepare(const DistanceField& walls, double hit_sigma_m);
 
+  /// @param points in the body frame; their normals do not matter here
   /// @pre prepare() has been called
-  [[nodiscard]] SearchResult find(const std::vector<Vector2d>& p_body, const SearchWindow& window);
+  [[nodiscard]] SearchResult find(const std::vector<SurfacePoint>& points,
+                                  const SearchWindow& window);
 
  private:
   struct Candidate {
@@ -47,7 +50,9 @@ class CorrelativeSearch {
     double bound = 0.0;
   };
 
-  void place_points(const std::vector<Vector2d>& p_body, const SearchWindow& window);
+  /// By bound, and in a fixed order where bounds are equal.
+  [[nodiscard]] static bool is_worse(const Candidate& a, const Candidate& b);
+  void place_points(const std::vector<SurfacePoint>& points, const SearchWindow& window);
   [[nodiscard]] double bound_of(const Candidate& block, const SearchWindow& window) const;
   [[nodiscard]] double likelihood_sum(const Candidate& block) const;
   void branch(const Candidate& block, const SearchWindow& window);

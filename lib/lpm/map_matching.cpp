@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "base/check.hpp"
@@ -41,24 +42,51 @@ DistanceField walls_of(const OccupancyGrid& grid) {
   return walls;
 }
 
-std::vector<Vector2d> wall_points(const OccupancyGrid& grid) {
+/// Across the wall through a cell: the direction in which the wall cells around it spread least.
+Vector2d wall_normal(const OccupancyGrid& grid, Cell wall) {
+  constexpr int kNeighbourhood = 3;
+  Vector2d sum = Vector2d::Zero();
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  double count = 0.0;
+  for (int dy = -kNeighbourhood; dy <= kNeighbourhood; ++dy) {
+    for (int dx = -kNeighbourhood; dx <= kNeighbourhood; ++dx) {
+      if (grid.state({wall.x + dx, wall.y + dy}) == CellState::kOccupied) {
+        const Vector2d d(dx, dy);
+        sum += d;
+        squares += d * d.transpose();
+        count += 1.0;
+      }
+    }
+  }
+  if (count < 3.0) {
+    return Vector2d::Zero();
+  }
+  const Eigen::Matrix2d spread = squares / count - sum * sum.transpose() / (count * count);
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvectors().col(0);
+}
+
+std::vector<SurfacePoint> wall_points(const OccupancyGrid& grid) {
   const GridGeometry& geometry = grid.geometry();
-  std::vector<Vector2d> points;
+  std::vector<SurfacePoint> points;
   for (int y = 0; y < geometry.height; ++y) {
     for (int x = 0; x < geometry.width; ++x) {
       if (grid.state({x, y}) == CellState::kOccupied) {
-        points.push_back(geometry.center_of({x, y}));
+        points.push_back({geometry.center_of({x, y}), Vector2d::Zero()});
       }
     }
   }
   return points;
 }
 
-std::vector<Vector2d> thinned(const std::vector<Vector2d>& points, const Vector2d& center) {
-  std::vector<Vector2d> few;
+/// Some of the points, as seen from the middle, with the directions of their walls.
+std::vector<SurfacePoint> thinned(const std::vector<SurfacePoint>& points,
+                                  const OccupancyGrid& grid,
+                                  const Vector2d& center) {
+  std::vector<SurfacePoint> few;
   const std::size_t step = 1 + points.size() / kMaxWallPoints;
   for (std::size_t i = 0; i < points.size(); i += step) {
-    few.emplace_back(points[i] - center);
+    const Cell wall = grid.geometry().cell_at(points[i].p);
+    few.push_back({points[i].p - center, wall_normal(grid, wall)});
   }
   return few;
 }
@@ -141,7 +169,7 @@ MapMatch match_maps(const OccupancyGrid& reference,
                     const MapMatchOptions& options) {
   CAIRN_CHECK(validate(options).ok());
   CAIRN_CHECK(reference.geometry().cell_m == other.geometry().cell_m);
-  const std::vector<Vector2d> points = wall_points(other);
+  const std::vector<SurfacePoint> points = wall_points(other);
   MapMatch match;
   match.T_reference_other = {T_reference_other_guess, diagonal(kBlindSigma_m, kBlindSigma_rad)};
   if (points.empty()) {
@@ -149,11 +177,11 @@ MapMatch match_maps(const OccupancyGrid& reference,
   }
   // Turns are about the middle of the walls: the origin of the frame may be far away.
   Vector2d center = Vector2d::Zero();
-  for (const Vector2d& p : points) {
-    center += p / static_cast<double>(points.size());
+  for (const SurfacePoint& point : points) {
+    center += point.p / static_cast<double>(points.size());
   }
   const Pose2 T_other_center(center, 0.0);
-  const std::vector<Vector2d> p_center = thinned(points, center);
+  const std::vector<SurfacePoint> p_center = thinned(points, other, center);
   const DistanceField walls = walls_of(reference);
 
   CorrelativeSearch search;

@@ -33,12 +33,17 @@ class ScanMatcher {
   [[nodiscard]] ScanMatch match(const ScrollingMap& map, const GaussianPose& T_lpm_robot_predicted);
 
  private:
+  void find_normals();
+  [[nodiscard]] ScanMatch best_match(const ScrollingMap& map, const GaussianPose& predicted);
   void judge(const ScrollingMap& map, ScanMatch* match) const;
-  void search(const ScrollingMap& map, const GaussianPose& predicted, ScanMatch* match);
+  [[nodiscard]] ScanMatch refined(const ScrollingMap& map,
+                                  const GaussianPose& predicted,
+                                  const Pose2& start) const;
+  [[nodiscard]] ScanMatch searched(const ScrollingMap& map, const GaussianPose& predicted);
 
   ScanMatchOptions options_;
-  std::vector<Vector2d> returns_;      // robot frame
-  std::vector<Vector2d> few_returns_;  // for the search
+  std::vector<SurfacePoint> returns_;      // robot frame
+  std::vector<SurfacePoint> few_returns_;  // for the search
   CorrelativeSearch search_;
 };
 

@@ -7,6 +7,12 @@
 
 namespace cairn {
 
+/// A return, and across which direction the surface lies that it came from.
+struct SurfacePoint {
+  Vector2d p;                          ///< m
+  Vector2d normal = Vector2d::Zero();  ///< Unit length, of either sign; zero where not known.
+};
+
 /// How returns weigh in least squares.
 struct RefinementOptions {
   double hit_sigma_m = 0.05;       ///< > 0
@@ -16,7 +22,8 @@ struct RefinementOptions {
 /// Where least squares has come to.
 struct Refinement {
   Pose2 T_lpm_robot;
-  /// Of the returns alone, of (x, y, theta) in the lpm frame; may be singular.
+  /// Of the returns alone, of (x, y, theta) in the lpm frame: each tells where the robot is across
+  /// its surface, and nothing along it. May be singular.
   Matrix3d information = Matrix3d::Zero();
   double cost = 0.0;  ///< Half the sum of squares of returns (robust) and prior, in sigmas.
 };
@@ -26,10 +33,10 @@ struct Refinement {
 ///
 /// Levenberg-Marquardt on a distance field as in Hector SLAM (Kohlbrecher et al., SSRR 2011), with
 /// Cauchy's loss since people and new walls are in no map.
-/// @param p_robot points in the robot frame
+/// @param points in the robot frame
 /// @param prior T_lpm_robot; its covariance must be positive definite
 [[nodiscard]] Refinement refine(const DistanceField& walls,
-                                const std::vector<Vector2d>& p_robot,
+                                const std::vector<SurfacePoint>& points,
                                 const GaussianPose& prior,
                                 const Pose2& start,
                                 const RefinementOptions& options);
