@@ -16,7 +16,7 @@ Status validate(const LpmOptions& options) {
       .require("map.window_m", map.window_m / map.cell_m <= 4096.0, "be at most 4096 cells")
       .positive("map.memory_travel_m", map.memory_travel_m)
       .within("map.hit_log_odds", map.hit_log_odds, 0.41, 3.0)
-      .within("map.miss_log_odds", map.miss_log_odds, 0.01, 3.0)
+      .within("map.miss_log_odds", map.miss_log_odds, 0.41, 3.0)
       .within("map.max_log_odds", map.max_log_odds, 1.0, 20.0)
       .positive("map.max_free_range_m", map.max_free_range_m)
       .within("motion.drive_noise_m_per_m", motion.drive_noise_m_per_m, 0.0, 1.0)

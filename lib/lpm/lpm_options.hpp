@@ -10,7 +10,7 @@ struct ScrollingMapOptions {
   double window_m = 40.0;          ///< Side of the square window. [4, 200]
   double memory_travel_m = 30.0;   ///< What was not seen for this travel is forgotten. > 0
   double hit_log_odds = 0.9;       ///< Added to the cell a beam ends in. [0.41, 3]
-  double miss_log_odds = 0.4;      ///< Taken from a cell a beam passes through. [0.01, 3]
+  double miss_log_odds = 0.45;     ///< Taken from a cell a beam passes through. [0.41, 3]
   double max_log_odds = 3.5;       ///< Clamp, so that what has moved away fades. [1, 20]
   double max_free_range_m = 20.0;  ///< A beam without return frees no more than this. > 0
 };
@@ -32,7 +32,7 @@ struct ScanMatchOptions {
   double point_spacing_m = 0.05;      ///< Returns closer together than this are thinned. >= 0
   double max_match_range_m = 40.0;    ///< Farther returns are not matched. > 0
   double hit_sigma_m = 0.05;          ///< Spread of a return around the wall. > 0
-  double independent_share = 0.1;     ///< Share of returns that count as independent. (0, 1]
+  double independent_share = 0.2;     ///< Share of returns that count as independent. (0, 1]
   double min_explained_share = 0.45;  ///< Of the returns over known cells; below: refused. [0, 1]
   int min_returns = 12;               ///< Fewer returns: the sensor is blocked. [3, 10000]
   double search_range_m = 0.6;        ///< Half the window of the wide search. [0, 5]

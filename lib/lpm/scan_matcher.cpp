@@ -13,8 +13,9 @@ constexpr double kGoodScore = 0.85;  // a match that leaves no wish for a search
 constexpr double kWindowInSigmas = 3.0;
 constexpr double kSearchSigma_m = 0.10;  // of the likelihood on the raster
 constexpr std::size_t kSearchReturns = 150;
-constexpr double kPoorScore = 0.70;      // a match that casts doubt on odometry
+constexpr double kPoorScore = 0.80;      // a match that casts doubt on odometry
 constexpr double kDoubt = 25.0;          // then its covariance counts as so much larger
+constexpr double kRefuted = 16.0;        // squared Mahalanobis: odometry was wrong
 constexpr double kClearlyBetter = 0.10;  // in score
 constexpr double kNeighbour_m = 1.0;     // farther returns are no neighbours on a surface
 constexpr double kEdge = 3.0;            // ratio of distances to neighbours across an edge
@@ -71,6 +72,16 @@ void ScanMatcher::find_normals() {
 }
 
 ScanMatch ScanMatcher::match(const ScrollingMap& map, const GaussianPose& predicted) {
+  ScanMatch match = best_match(map, predicted);
+  if (squared_mahalanobis(match.fit.T_lpm_robot, predicted.mean, predicted.covariance) > kRefuted) {
+    const bool was_searched = match.was_searched;
+    match = refined(map, {predicted.mean, kDoubt * predicted.covariance}, match.fit.T_lpm_robot);
+    match.was_searched = was_searched;
+  }
+  return match;
+}
+
+ScanMatch ScanMatcher::best_match(const ScrollingMap& map, const GaussianPose& predicted) {
   ScanMatch match = refined(map, predicted, predicted.mean);
   const Matrix3d& covariance = predicted.covariance;
   const bool is_certain = std::max(covariance(0, 0), covariance(1, 1)) <= kCertain_m * kCertain_m &&

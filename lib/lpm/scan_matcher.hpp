@@ -34,6 +34,7 @@ class ScanMatcher {
 
  private:
   void find_normals();
+  [[nodiscard]] ScanMatch best_match(const ScrollingMap& map, const GaussianPose& predicted);
   void judge(const ScrollingMap& map, ScanMatch* match) const;
   [[nodiscard]] ScanMatch refined(const ScrollingMap& map,
                                   const GaussianPose& predicted,
