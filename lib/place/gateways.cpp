@@ -53,10 +53,16 @@ double seen_beyond_m(const MedialAxis& axis,
   const AxisNode& end = axis.nodes[way.forward ? edge.to : edge.from];
   const double along_m = length_m(edge, index_on_edge(axis, way, position),
                                   index_on_edge(axis, way, edge.cells.size() - 1), cell_m);
-  if (end.end == AxisEnd::kBorder) {
-    return along_m;
+  switch (end.end) {
+    case AxisEnd::kMeets:
+      return along_m + end.clearance_m + options.doorway_depth_m;
+    case AxisEnd::kBlocked:
+      return along_m + end.clearance_m;
+    case AxisEnd::kUnknown:
+    case AxisEnd::kBorder:
+      break;
   }
-  return along_m + end.clearance_m + (end.end == AxisEnd::kMeets ? options.seen_beyond_m : 0.0);
+  return along_m;
 }
 
 double bearing_beyond(const LocalView& view,
@@ -103,50 +109,58 @@ WayOut way_out(const LocalView& view, AxisWay way, const PlaceOptions& options) 
   const double cell_m = view.grid.geometry().cell_m;
   const AxisEdge& edge = view.axis.edges[way.edge];
   const AxisEnd end = view.axis.nodes[way.forward ? edge.to : edge.from].end;
-  const auto first = first_constriction(view.axis, way, cell_m, options);
   WayOut out;
-  if (first) {
-    const std::size_t last = position_after(view.axis, way, *first, kRefine_m, cell_m);
-    const std::size_t position = narrowest_between(view.axis, way, *first, last);
-    const double beyond_m = seen_beyond_m(view.axis, way, position, cell_m, options);
-    if (beyond_m >= options.seen_beyond_m) {
-      out.gateway = gateway_at(view, way, position);
-    }
-    if (out.gateway) {
-      out.gateway->seen_beyond_m = beyond_m;
-    }
+  out.is_undecided = end != AxisEnd::kBlocked;
+  const auto first = first_constriction(view.axis, way, cell_m, options);
+  if (!first) {
+    return out;
   }
-  out.is_undecided = !out.gateway && end != AxisEnd::kBlocked;
+  const std::size_t last = position_after(view.axis, way, *first, kRefine_m, cell_m);
+  const std::size_t position = narrowest_between(view.axis, way, *first, last);
+  std::optional<Gateway> line = gateway_at(view, way, position);
+  if (!line) {
+    return out;
+  }
+  line->seen_beyond_m = seen_beyond_m(view.axis, way, position, cell_m, options);
+  const bool is_doorway = line->width_m < options.doorway_below_m;
+  if (line->seen_beyond_m >= (is_doorway ? options.doorway_depth_m : options.seen_beyond_m)) {
+    out.gateway = line;
+    out.is_undecided = false;
+  } else if (is_doorway) {
+    out.closed = line;
+    out.is_undecided = false;
+  }
   return out;
 }
 
-std::vector<Gateway> gateways_of(const LocalView& view,
-                                 const AxisSite& site,
-                                 const Vector2d& center,
-                                 const PlaceOptions& options,
-                                 bool* is_decided) {
+SiteBounds bounds_of(const LocalView& view,
+                     const AxisSite& site,
+                     const Vector2d& center,
+                     const PlaceOptions& options) {
+  SiteBounds bounds;
   std::vector<Gateway> found;
   for (const AxisWay& way : site.ways) {
     const WayOut out = way_out(view, way, options);
-    *is_decided = *is_decided && !out.is_undecided;
+    bounds.is_decided = bounds.is_decided && !out.is_undecided;
     if (out.gateway) {
       found.push_back(*out.gateway);
+    }
+    if (out.closed) {
+      bounds.closed.push_back(*out.closed);
     }
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Gateway& a, const Gateway& b) { return a.width_m > b.width_m; });
-  std::vector<Gateway> gateways;
   for (const Gateway& gateway : found) {
-    const bool is_separate = std::none_of(gateways.begin(), gateways.end(), [&](const Gateway& g) {
-      return std::abs(turn_between(bearing_from(center, g), bearing_from(center, gateway))) <
-             options.min_gateway_separation_rad;
-    });
-    if (is_separate) {
-      gateways.push_back(gateway);
-    }
+    const bool is_separate =
+        std::none_of(bounds.gateways.begin(), bounds.gateways.end(), [&](const Gateway& g) {
+          return std::abs(turn_between(bearing_from(center, g), bearing_from(center, gateway))) <
+                 options.min_gateway_separation_rad;
+        });
+    (is_separate ? bounds.gateways : bounds.closed).push_back(gateway);
   }
-  sort_clockwise(center, &gateways);
-  return gateways;
+  sort_clockwise(center, &bounds.gateways);
+  return bounds;
 }
 
 }  // namespace cairn

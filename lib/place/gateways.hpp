@@ -9,9 +9,12 @@
 
 namespace cairn {
 
-/// What a way that leaves a site turns out to be.
+/// What a way that leaves a site turns out to be. Neither: an alcove, which belongs to the place.
 struct WayOut {
   std::optional<Gateway> gateway;  ///< In the frame of the map.
+  /// A doorway behind which too little was seen to call it a passage: it bounds the place as a wall
+  /// does. A robot that has been behind it, or looks far into it, sees it differently.
+  std::optional<Gateway> closed;
   /// Whether the way ends in unknown space before it can be told: the place is not complete.
   bool is_undecided = false;
 };
@@ -21,12 +24,18 @@ struct WayOut {
 /// seen free.
 [[nodiscard]] WayOut way_out(const LocalView& view, AxisWay way, const PlaceOptions& options);
 
-/// The gateways of a site in clockwise order around `center`. Of two that cannot be told apart by
-/// their bearing the narrower is left out. `is_decided` becomes false where a way is undecided.
-[[nodiscard]] std::vector<Gateway> gateways_of(const LocalView& view,
-                                               const AxisSite& site,
-                                               const Vector2d& center,
-                                               const PlaceOptions& options,
-                                               bool* is_decided);
+/// All that bounds a site, apart from walls.
+struct SiteBounds {
+  std::vector<Gateway> gateways;  ///< Clockwise.
+  std::vector<Gateway> closed;
+  bool is_decided = true;
+};
+
+/// Looks at all ways out of a site. Of two gateways that cannot be told apart by their bearing from
+/// the centre the narrower counts as closed.
+[[nodiscard]] SiteBounds bounds_of(const LocalView& view,
+                                   const AxisSite& site,
+                                   const Vector2d& center,
+                                   const PlaceOptions& options);
 
 }  // namespace cairn

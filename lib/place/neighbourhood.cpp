@@ -61,8 +61,8 @@ PlaceNeighbourhood neighbourhood_of(const LocalView& view,
                                     const PlaceOptions& options) {
   PlaceNeighbourhood place;
   place.center = center_of(view, site);
-  bool is_decided = true;
-  place.gateways = gateways_of(view, site, place.center, options, &is_decided);
+  const SiteBounds bounds = bounds_of(view, site, place.center, options);
+  place.gateways = bounds.gateways;
   place.fragments = mutual_straight_continuations(place.gateways, options.continuation);
   place.star =
       small_scale_star(place.center, place.gateways, place.fragments, options.midline_below_m);
@@ -70,13 +70,15 @@ PlaceNeighbourhood neighbourhood_of(const LocalView& view,
   for (const std::size_t n : site.nodes) {
     starts.push_back(view.axis.nodes[n].cell);
   }
+  std::vector<Gateway> lines = bounds.gateways;
+  lines.insert(lines.end(), bounds.closed.begin(), bounds.closed.end());
   const PlaceRegion region =
-      flooded_region(view, starts, place.gateways, place.center, options.robot_width_m);
-  place.is_complete = is_decided && region.is_complete;
+      flooded_region(view, starts, lines, place.center, options.robot_width_m);
+  place.is_complete = bounds.is_decided && region.is_complete;
   place.radius_m = region.radius_m;
   place.distinctiveness = region.distinctiveness;
   // With a way still undecided the region has no bound there; only the meeting point counts then.
-  place.contains_robot = is_decided ? region.contains_robot : is_near_node(view, site);
+  place.contains_robot = bounds.is_decided ? region.contains_robot : is_near_node(view, site);
   return place;
 }
 

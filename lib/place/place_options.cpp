@@ -15,6 +15,8 @@ Status validate(const PlaceOptions& options) {
       .within("constriction_tolerance_m", options.constriction_tolerance_m, 0.0, 10.0)
       .within("min_corner_rad", options.min_corner_rad, 0.01, 3.14)
       .within("min_gateway_separation_rad", options.min_gateway_separation_rad, 0.0, 3.14)
+      .within("doorway_below_m", options.doorway_below_m, 0.0, 100.0)
+      .positive("doorway_depth_m", options.doorway_depth_m)
       .positive("seen_beyond_m", options.seen_beyond_m)
       .positive("midline_below_m", options.midline_below_m)
       .within("min_distinctiveness", options.min_distinctiveness, 0.0, 1.0)

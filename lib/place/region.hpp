@@ -17,7 +17,7 @@ struct PlaceRegion {
 };
 
 /// Floods the passable cells from the given ones.
-/// @param gateways in the frame of the map, as are all coordinates
+/// @param gateways lines not to cross, in the frame of the map, as are all coordinates
 [[nodiscard]] PlaceRegion flooded_region(const LocalView& view,
                                          const std::vector<Cell>& starts,
                                          const std::vector<Gateway>& gateways,
