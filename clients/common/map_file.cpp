@@ -58,8 +58,12 @@ const char* name_of(std::int32_t what) {
 
 Statement prepare(sqlite3* database, const std::filesystem::path& path, const std::string& sql) {
   sqlite3_stmt* statement = nullptr;
-  if (sqlite3_prepare_v2(database, sql.c_str(), -1, &statement, nullptr) != SQLITE_OK) {
+  const int result = sqlite3_prepare_v2(database, sql.c_str(), -1, &statement, nullptr);
+  if (result == SQLITE_NOTADB || result == SQLITE_ERROR) {
     throw unreadable(path, std::string("is no cairn map (") + sqlite3_errmsg(database) + ")");
+  }
+  if (result != SQLITE_OK) {
+    throw unreadable(path, std::string("cannot be read: ") + sqlite3_errmsg(database));
   }
   return Statement(statement);
 }
