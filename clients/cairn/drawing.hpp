@@ -63,6 +63,9 @@ inline constexpr Colour kPendingColour{200, 30, 120};
 inline constexpr Colour kTrajectoryColour{95, 105, 120};
 inline constexpr Colour kInkColour{40, 44, 52};
 
+/// Length of the stub that shows a pending gateway.
+inline constexpr double kStubM = 0.9;
+
 /// The course of a path segment in the global frame: out of one place by its gateway, into the
 /// other by its own. Empty if a place or a gateway is not in the map.
 struct MapPoint {

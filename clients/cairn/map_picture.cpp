@@ -18,7 +18,6 @@ constexpr int kLeastWidth = 560;  ///< Room for the scale bar and the key.
 constexpr double kDiscPixels = 12.0;
 constexpr double kIdPixels = 9.0;
 constexpr double kLabelPixels = 10.0;
-constexpr double kStubM = 0.9;
 
 Colour mix(Colour a, Colour b, double share) {
   const auto channel = [share](std::uint8_t from, std::uint8_t to) {

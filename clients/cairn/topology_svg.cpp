@@ -14,7 +14,6 @@ namespace {
 constexpr int kLongestSide = 1000;
 constexpr int kFooter = 40;
 constexpr int kLeastWidth = 240;
-constexpr double kStubM = 0.9;
 
 std::string hex(Colour colour) {
   char text[8];

@@ -75,8 +75,9 @@ Extent extent_of(const MapLayers& layers) {
     for (const cairn_lcm::place_t& place : layers.topology->places) {
       extent.add(place.x_m, place.y_m);
       for (const cairn_lcm::gateway_t& gateway : place.gateways) {
-        const PlanarPose middle = pose_of(place, gateway);
-        extent.add(middle.x_m, middle.y_m);
+        const double ahead_m = gateway.is_pending != 0 ? kStubM : 0.0;
+        const PlanarPose end = compound(pose_of(place, gateway), {ahead_m, 0.0, 0.0});
+        extent.add(end.x_m, end.y_m);
       }
     }
   }
@@ -97,7 +98,7 @@ Viewport::Viewport(const MapLayers& layers, int longest_side_pixels) {
   const Extent extent = extent_of(layers);
   const double longest_m =
       std::max({extent.right_m - extent.left_m, extent.top_m - extent.bottom_m, 1.0});
-  const double margin_m = 0.04 * longest_m;
+  const double margin_m = 0.06 * longest_m;
   left_m_ = extent.left_m - margin_m;
   top_m_ = extent.top_m + margin_m;
   pixels_per_m_ = std::min(kMostPixelsPerM, longest_side_pixels / (longest_m + 2.0 * margin_m));

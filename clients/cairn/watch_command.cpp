@@ -1,6 +1,6 @@
 #include <cmath>
-#include <cstring>
 #include <csignal>
+#include <cstring>
 #include <tuple>
 
 #include <cairn_lcm/place_event_t.hpp>

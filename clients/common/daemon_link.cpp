@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 #include <random>
+#include <utility>
 
 #include <cairn_lcm/result_t.hpp>
 #include <cairn_lcm/snapshot_chunk_t.hpp>
@@ -25,6 +26,10 @@ constexpr std::chrono::milliseconds kTick{20};
 // A daemon that lives may take longer to make a large document than to say that it lives.
 constexpr double kPatience = 4.0;
 
+bool is_longer_than(double seconds, std::int64_t since_us) {
+  return static_cast<double>(steady_us() - since_us) > seconds * 1e6;
+}
+
 }  // namespace
 
 /// What has come in; the handlers write here.
@@ -43,6 +48,16 @@ struct DaemonLink::Inbox {
     plan.reset();
     heard_us = steady_us();
     return heard_us;
+  }
+
+  /// The plan, or a result in its place: a refusal needs no plan.
+  std::optional<cairn_lcm::plan_t> take_answer() {
+    if (!plan && result) {
+      plan.emplace();
+      plan->result = *result;
+    }
+    result.reset();
+    return std::exchange(plan, std::nullopt);
   }
 };
 
@@ -133,7 +148,7 @@ cairn_lcm::status_t DaemonLink::status() {
   inbox_->status.reset();
   const std::int64_t begin_us = steady_us();
   while (!inbox_->status) {
-    if (static_cast<double>(steady_us() - begin_us) > options_.timeout_s * 1e6) {
+    if (is_longer_than(options_.timeout_s, begin_us)) {
       throw no_daemon();
     }
     handle(kTick);
@@ -153,11 +168,23 @@ std::vector<std::uint8_t> DaemonLink::fetch(std::int32_t what, const char* name)
   inbox_->fetch = &fetch;
   const auto leave = [this](wire::DocumentFetch*) { inbox_->fetch = nullptr; };
   const std::unique_ptr<wire::DocumentFetch, decltype(leave)> guard(&fetch, leave);
+  wait_for(fetch, name);
+  if (fetch.state() == wire::DocumentFetch::State::kDone) {
+    return fetch.document();
+  }
+  if (inbox_->heard_us == begin_us) {
+    throw no_daemon();
+  }
+  throw Failure(ExitCode::kNoService,
+                std::string("the daemon lives, but its ") + name + " did not come through");
+}
 
+void DaemonLink::wait_for(wire::DocumentFetch& fetch, const char* name) {
   Progress progress(std::string("receiving the ") + name);
   std::int64_t advanced_us = steady_us();
   double share = 0.0;
-  while (fetch.tick(steady_us(), now_utime()) == wire::DocumentFetch::State::kAsking) {
+  while (fetch.tick(steady_us(), now_utime()) == wire::DocumentFetch::State::kAsking &&
+         !is_longer_than(kPatience * options_.timeout_s, advanced_us)) {
     handle(kTick);
     if (fetch.progress() != share) {
       share = fetch.progress();
@@ -169,22 +196,10 @@ std::vector<std::uint8_t> DaemonLink::fetch(std::int32_t what, const char* name)
       throw Failure(ExitCode::kBadData, std::string("the daemon has no ") + name + ": " +
                                             printable(inbox_->result->reason));
     }
-    const std::int64_t now_us = steady_us();
-    if (static_cast<double>(now_us - inbox_->heard_us) > options_.timeout_s * 1e6) {
+    if (is_longer_than(options_.timeout_s, inbox_->heard_us)) {
       throw no_daemon();
     }
-    if (static_cast<double>(now_us - advanced_us) > kPatience * options_.timeout_s * 1e6) {
-      break;
-    }
   }
-  if (inbox_->heard_us == begin_us) {
-    throw no_daemon();
-  }
-  if (fetch.state() != wire::DocumentFetch::State::kDone) {
-    throw Failure(ExitCode::kNoService,
-                  std::string("the daemon lives, but its ") + name + " did not come through");
-  }
-  return fetch.document();
 }
 
 template <typename Message>
@@ -218,35 +233,27 @@ cairn_lcm::plan_t DaemonLink::plan(cairn_lcm::plan_request_t request) {
   inbox_->begin(request.header.client_id);
   wire::RequestRetry retry;
   while (true) {
-    const std::int64_t now_us = steady_us();
-    const wire::RequestRetry::Step step = retry.step(now_us);
+    const wire::RequestRetry::Step step = retry.step(steady_us());
     if (step == wire::RequestRetry::Step::kSend) {
       request.header.utime = now_utime();
       bus_->publish("CAIRN_REQUEST_PLAN", request);
     }
     if (step == wire::RequestRetry::Step::kGiveUp ||
-        static_cast<double>(now_us - inbox_->heard_us) > options_.timeout_s * 1e6) {
+        is_longer_than(options_.timeout_s, inbox_->heard_us)) {
       throw no_daemon();
     }
     handle(kTick);
-    if (inbox_->result && !inbox_->plan) {
-      inbox_->plan.emplace();
-      inbox_->plan->result = *inbox_->result;
-    }
-    if (!inbox_->plan) {
+    const std::optional<cairn_lcm::plan_t> answer = inbox_->take_answer();
+    if (!answer) {
       continue;
     }
-    const result_t& result = inbox_->plan->result;
-    if (result.code != result_t::ACCEPTED && result.code != result_t::BUSY) {
-      return *inbox_->plan;
-    }
-    if (result.code == result_t::ACCEPTED) {
+    if (answer->result.code == result_t::ACCEPTED) {
       retry.accepted(steady_us());
+    } else if (answer->result.code == result_t::BUSY) {
+      retry.busy(steady_us(), std::int64_t{answer->result.retry_after_ms} * 1'000);
     } else {
-      retry.busy(steady_us(), std::int64_t{result.retry_after_ms} * 1'000);
+      return *answer;
     }
-    inbox_->plan.reset();
-    inbox_->result.reset();
   }
 }
 

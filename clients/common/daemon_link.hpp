@@ -14,6 +14,10 @@
 #include "clients/common/map_source.hpp"
 #include "wire/bus.hpp"
 
+namespace cairn::wire {
+class DocumentFetch;
+}  // namespace cairn::wire
+
 namespace cairn::clients {
 
 /// How to reach the daemon.
@@ -54,6 +58,7 @@ class DaemonLink final : public MapSource {
 
   void subscribe();
   [[nodiscard]] std::vector<std::uint8_t> fetch(std::int32_t what, const char* name);
+  void wait_for(wire::DocumentFetch& fetch, const char* name);
   template <typename Message>
   [[nodiscard]] Message document(std::int32_t what, const char* name);
 

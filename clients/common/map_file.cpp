@@ -58,8 +58,17 @@ const char* name_of(std::int32_t what) {
 
 Statement prepare(sqlite3* database, const std::filesystem::path& path, const std::string& sql) {
   sqlite3_stmt* statement = nullptr;
-  if (sqlite3_prepare_v2(database, sql.c_str(), -1, &statement, nullptr) != SQLITE_OK) {
+  const int result = sqlite3_prepare_v2(database, sql.c_str(), -1, &statement, nullptr);
+  if (result == SQLITE_NOTADB || result == SQLITE_ERROR) {
     throw unreadable(path, std::string("is no cairn map (") + sqlite3_errmsg(database) + ")");
+  }
+  if (result == SQLITE_CANTOPEN) {
+    // A log left behind by a crash, or by another user: reading it takes a file beside it.
+    throw unreadable(path, "cannot be read here: copy it, and " + path.filename().string() +
+                               "-wal with it, to a folder that you may write to");
+  }
+  if (result != SQLITE_OK) {
+    throw unreadable(path, std::string("cannot be read: ") + sqlite3_errmsg(database));
   }
   return Statement(statement);
 }
@@ -81,8 +90,8 @@ void MapFile::Close::operator()(sqlite3* database) const {
 MapFile::MapFile(const std::filesystem::path& path) : path_(path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
-    throw unreadable(path,
-                     std::filesystem::exists(path, error) ? "is no file" : "there is no such file");
+    throw unreadable(path, std::filesystem::exists(path, error) ? "is no regular file"
+                                                                : "there is no such file");
   }
   if (!std::ifstream(path, std::ios::binary)) {
     throw unreadable(path, "cannot be opened for reading");

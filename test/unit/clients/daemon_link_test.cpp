@@ -9,10 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "clients/common/subscribe.hpp"
+#include "unit/clients/fake_daemon.hpp"
 #include "unit/clients/sample_map.hpp"
-#include "wire/document.hpp"
-#include "wire/replication_server.hpp"
 
 namespace cairn::clients {
 namespace {
@@ -20,86 +18,8 @@ namespace {
 using cairn_lcm::plan_request_t;
 using cairn_lcm::plan_t;
 using cairn_lcm::result_t;
-using cairn_lcm::snapshot_request_t;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-/// The daemon's side of the bus, on the same thread as the client under test.
-class FakeDaemon {
- public:
-  explicit FakeDaemon(wire::Bus& bus)
-      : bus_(bus),
-        server_(
-            99,
-            [this](const cairn_lcm::snapshot_chunk_t& chunk) {
-              if (++chunks_sent_ % lose_every_ != 0) {
-                bus_.publish("CAIRN_SNAPSHOT", chunk);
-              }
-            },
-            [](const cairn_lcm::map_delta_t&) {},
-            small_chunks()) {
-    serve(snapshot_request_t::TOPOLOGY, sample_topology());
-    serve(snapshot_request_t::HYPOTHESES, sample_hypotheses());
-    serve(snapshot_request_t::GLOBAL_MAP, sample_grid());
-    subscribe<snapshot_request_t>(
-        bus, "CAIRN_REQUEST_SNAPSHOT", [this](const snapshot_request_t& request) {
-          if (!server_.on_request(steady_us(), request)) {
-            refuse(request.header, result_t::NOT_FOUND, "nothing mapped yet");
-          }
-        });
-    subscribe<plan_request_t>(bus, "CAIRN_REQUEST_PLAN", [this](const plan_request_t& request) {
-      ++plan_requests_;
-      if (answer_plan) {
-        answer_plan(request);
-      }
-    });
-  }
-
-  void work() {
-    bus_.publish("CAIRN_STATUS", sample_status());
-    server_.pump(steady_us(), now_utime());
-  }
-
-  void refuse(const cairn_lcm::rpc_header_t& header, std::int32_t code, const char* reason) {
-    result_t result{};
-    result.header = header;
-    result.code = code;
-    result.reason = reason;
-    bus_.publish("CAIRN_RESULT", result);
-  }
-
-  void send_plan(const plan_request_t& request, std::int32_t code) {
-    plan_t plan{};
-    plan.result.header = request.header;
-    plan.result.code = code;
-    plan.result.retry_after_ms = 10;
-    plan.places = {1, 2, request.goal_place};
-    plan.num_places = 3;
-    bus_.publish("CAIRN_PLAN", plan);
-  }
-
-  std::function<void(const plan_request_t&)> answer_plan;
-  int plan_requests_ = 0;
-  int lose_every_ = 1'000'000;
-
- private:
-  static wire::ReplicationServerOptions small_chunks() {
-    wire::ReplicationServerOptions options;
-    options.chunk_bytes = 256;
-    return options;
-  }
-
-  template <typename Message>
-  void serve(std::int32_t what, const Message& message) {
-    server_.serve(what, [message] {
-      return wire::Document{message.map_id, message.revision, wire::to_document(message)};
-    });
-  }
-
-  wire::Bus& bus_;
-  int chunks_sent_ = 0;
-  wire::ReplicationServer server_;
-};
 
 class DaemonLinkTest : public ::testing::Test {
  protected:

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <functional>
+
+#include <cairn_lcm/event_request_t.hpp>
+#include <cairn_lcm/map_delta_t.hpp>
+#include <cairn_lcm/place_event_t.hpp>
+#include <cairn_lcm/plan_request_t.hpp>
+#include <cairn_lcm/plan_t.hpp>
+#include <cairn_lcm/pose_t.hpp>
+#include <cairn_lcm/result_t.hpp>
+#include <cairn_lcm/snapshot_chunk_t.hpp>
+#include <cairn_lcm/snapshot_request_t.hpp>
+
+#include "clients/common/daemon_link.hpp"
+#include "clients/common/subscribe.hpp"
+#include "unit/clients/sample_map.hpp"
+#include "wire/document.hpp"
+#include "wire/replication_server.hpp"
+
+namespace cairn::clients {
+
+/// The daemon's side of the bus, serving the sample map except for its trajectory. Works on the
+/// thread that serves the bus.
+class FakeDaemon {
+ public:
+  explicit FakeDaemon(wire::Bus& bus)
+      : bus_(bus),
+        server_(
+            99,
+            [this](const cairn_lcm::snapshot_chunk_t& chunk) {
+              if (++chunks_sent_ % lose_every_ != 0) {
+                bus_.publish("CAIRN_SNAPSHOT", chunk);
+              }
+            },
+            [](const cairn_lcm::map_delta_t&) {},
+            small_chunks()) {
+    serve(cairn_lcm::snapshot_request_t::TOPOLOGY, sample_topology());
+    serve(cairn_lcm::snapshot_request_t::HYPOTHESES, sample_hypotheses());
+    serve(cairn_lcm::snapshot_request_t::GLOBAL_MAP, sample_grid());
+    subscribe<cairn_lcm::snapshot_request_t>(
+        bus, "CAIRN_REQUEST_SNAPSHOT", [this](const cairn_lcm::snapshot_request_t& request) {
+          if (!server_.on_request(steady_us(), request)) {
+            refuse(request.header, cairn_lcm::result_t::NOT_FOUND, "nothing mapped yet");
+          }
+        });
+    subscribe<cairn_lcm::event_request_t>(
+        bus, "CAIRN_REQUEST_EVENTS", [this](const cairn_lcm::event_request_t& request) {
+          for (std::int64_t number = request.have_event_number + 1; number <= newest_event_;
+               ++number) {
+            send_event(number);
+          }
+        });
+    subscribe<cairn_lcm::plan_request_t>(bus, "CAIRN_REQUEST_PLAN",
+                                         [this](const cairn_lcm::plan_request_t& request) {
+                                           ++plan_requests_;
+                                           if (answer_plan) {
+                                             answer_plan(request);
+                                           }
+                                         });
+  }
+
+  void work() {
+    cairn_lcm::status_t status = sample_status();
+    status.event_number = newest_event_;
+    bus_.publish("CAIRN_STATUS", status);
+    server_.pump(steady_us(), now_utime());
+  }
+
+  /// Entering the place of that number; sent so that every other one is lost.
+  void happen() {
+    if (++newest_event_ % 2 == 1) {
+      send_event(newest_event_);
+    }
+  }
+
+  void refuse(const cairn_lcm::rpc_header_t& header, std::int32_t code, const char* reason) {
+    cairn_lcm::result_t result{};
+    result.header = header;
+    result.code = code;
+    result.reason = reason;
+    bus_.publish("CAIRN_RESULT", result);
+  }
+
+  void send_plan(const cairn_lcm::plan_request_t& request, std::int32_t code) {
+    cairn_lcm::plan_t plan{};
+    plan.result.header = request.header;
+    plan.result.code = code;
+    plan.result.retry_after_ms = 10;
+    plan.places = {1, 2, request.goal_place};
+    plan.num_places = 3;
+    bus_.publish("CAIRN_PLAN", plan);
+  }
+
+  std::function<void(const cairn_lcm::plan_request_t&)> answer_plan;
+  int plan_requests_ = 0;
+  std::int64_t newest_event_ = 0;
+  int lose_every_ = 1'000'000;
+
+ private:
+  void send_event(std::int64_t number) {
+    cairn_lcm::place_event_t event{};
+    event.boot_id = 99;
+    event.event_number = number;
+    event.kind_name = "ENTERED";
+    event.place_id = 100 + number;
+    bus_.publish("CAIRN_PLACE_EVENT", event);
+  }
+
+  static wire::ReplicationServerOptions small_chunks() {
+    wire::ReplicationServerOptions options;
+    options.chunk_bytes = 256;
+    return options;
+  }
+
+  template <typename Message>
+  void serve(std::int32_t what, const Message& message) {
+    server_.serve(what, [message] {
+      return wire::Document{message.map_id, message.revision, wire::to_document(message)};
+    });
+  }
+
+  wire::Bus& bus_;
+  int chunks_sent_ = 0;
+  wire::ReplicationServer server_;
+};
+
+}  // namespace cairn::clients

@@ -1,0 +1,145 @@
+#include <atomic>
+#include <functional>
+#include <sstream>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "clients/cairn/program.hpp"
+#include "unit/clients/fake_daemon.hpp"
+#include "wire/tcpq_hub.hpp"
+
+namespace cairn::clients {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// Calls something again and again on a thread of its own.
+class Loop {
+ public:
+  explicit Loop(std::function<void()> work)
+      : thread_([this, work = std::move(work)] {
+          while (!stop_) {
+            work();
+          }
+        }) {}
+  Loop(const Loop&) = delete;
+  Loop& operator=(const Loop&) = delete;
+  ~Loop() {
+    stop_ = true;
+    thread_.join();
+  }
+
+ private:
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+/// The commands against a daemon on a bus of their own: a hub on a free port of this machine.
+class LiveCommands : public ::testing::Test {
+ protected:
+  struct Outcome {
+    int status = -1;
+    std::string out;
+    std::string err;
+  };
+
+  Outcome run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--lcm-url", hub_.url()});
+    std::ostringstream out;
+    std::ostringstream err;
+    const int status = run_cairn(arguments, out, err);
+    return {status, out.str(), err.str()};
+  }
+
+  static wire::TcpqHubOptions on_a_free_port() {
+    wire::TcpqHubOptions options;
+    options.port = 0;
+    return options;
+  }
+
+  void answer(const cairn_lcm::plan_request_t& request) {
+    if (request.goal_name == "nowhere") {
+      daemon_.refuse(request.header, cairn_lcm::result_t::NOT_FOUND, "no place has this name");
+    } else {
+      daemon_.send_plan(request, cairn_lcm::result_t::OK);
+    }
+  }
+
+  wire::TcpqHub hub_ = *wire::TcpqHub::open(on_a_free_port());
+  Loop hub_loop_{[this] { hub_.serve(5); }};
+  std::unique_ptr<wire::Bus> bus_ = std::move(*wire::Bus::open(hub_.url()));
+  FakeDaemon daemon_{*bus_};
+  int rounds_ = 0;
+  Loop daemon_loop_{[this] {
+    if (rounds_ == 0) {
+      daemon_.answer_plan = [this](const auto& request) { answer(request); };
+    }
+    if (++rounds_ % 10 == 0) {
+      daemon_.happen();
+    }
+    daemon_.work();
+    bus_->handle(5);
+  }};
+};
+
+TEST_F(LiveCommands, ShowWhatTheDaemonHolds) {
+  EXPECT_THAT(run({"status"}).out, AllOf(HasSubstr("MAPPING"), HasSubstr("5 in 9 visits"),
+                                         HasSubstr("1234 received"), HasSubstr("none yet")));
+  EXPECT_EQ(nlohmann::json::parse(run({"status", "--json"}).out)["boot_id"], 99);
+  EXPECT_THAT(run({"places"}).out, HasSubstr("0>3 1>1 2?"));
+  EXPECT_THAT(run({"hypotheses"}).out, HasSubstr("2 live after 9 visits"));
+}
+
+TEST_F(LiveCommands, DrawTheSamePictureAsFromTheFile) {
+  const TemporaryFolder folder;
+  write_sample_map(folder / "m.cairn");
+  const std::string live = (folder / "live.png").string();
+  const std::string filed = (folder / "file.png").string();
+
+  EXPECT_EQ(run({"map", "--png", live}).status, 0);
+  EXPECT_EQ(run({"map", "--png", filed, (folder / "m.cairn").string()}).status, 0);
+
+  EXPECT_EQ(content_of(live), content_of(filed));
+}
+
+TEST_F(LiveCommands, ATrajectoryThatTheDaemonDoesNotHaveIsBadData) {
+  const Outcome outcome = run({"export", "--trajectory", "/dev/null"});
+  EXPECT_EQ(outcome.status, 65);
+  EXPECT_THAT(outcome.err, HasSubstr("the daemon has no trajectory: nothing mapped yet"));
+}
+
+TEST_F(LiveCommands, PathIsAskedForAndPrinted) {
+  const Outcome path = run({"path", "--to", "5"});
+  EXPECT_EQ(path.status, 0) << path.err;
+  EXPECT_THAT(path.out, HasSubstr("1 > 2 > 5"));
+
+  const Outcome nowhere = run({"path", "--to", "nowhere"});
+  EXPECT_EQ(nowhere.status, 65);
+  EXPECT_THAT(nowhere.err, HasSubstr("no path: no place has this name"));
+}
+
+TEST_F(LiveCommands, WatchAsksForTheEventsThatTheBusLost) {
+  const Outcome watch = run({"watch", "--count", "5", "--json"});
+
+  EXPECT_EQ(watch.status, 0) << watch.err;
+  std::istringstream lines(watch.out);
+  std::int64_t last = 0;
+  int num_lines = 0;
+  for (std::string line; std::getline(lines, line); ++num_lines) {
+    const nlohmann::json json = nlohmann::json::parse(line);
+    if (json["what"] == "event") {
+      const auto number = json["message"]["event_number"].get<std::int64_t>();
+      EXPECT_TRUE(last == 0 || number == last + 1) << number << " after " << last;
+      last = number;
+    }
+  }
+  EXPECT_EQ(num_lines, 5);
+  EXPECT_GT(last, 0);
+}
+
+}  // namespace
+}  // namespace cairn::clients
