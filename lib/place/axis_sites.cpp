@@ -48,9 +48,10 @@ double turn_at(const AxisEdge& edge, std::size_t i, double cell_m) {
 
 /// Positions where an edge turns most, in ascending order; at most one within the reach of another.
 std::vector<std::size_t> corners_of(const AxisEdge& edge, double cell_m, double min_turn_rad) {
-  std::vector<double> turns(edge.cells.size(), 0.0);
-  for (std::size_t i = 0; i < turns.size(); ++i) {
-    turns[i] = turn_at(edge, i, cell_m);
+  std::vector<double> turns;
+  turns.reserve(edge.cells.size());
+  for (std::size_t i = 0; i < edge.cells.size(); ++i) {
+    turns.push_back(turn_at(edge, i, cell_m));
   }
   std::vector<std::size_t> corners;
   for (std::size_t i = 0; i < turns.size(); ++i) {
@@ -99,20 +100,55 @@ bool has_doorway(const MedialAxis& axis, const AxisEdge& edge) {
 }
 
 /// Whether the places at both ends of an edge cannot be told apart.
-bool joins_its_ends(const MedialAxis& axis,
-                    std::size_t e,
-                    double cell_m,
-                    const PlaceOptions& options) {
-  const AxisEdge& edge = axis.edges[e];
-  if (!is_site_node(axis.nodes[edge.from]) || !is_site_node(axis.nodes[edge.to])) {
+bool joins_its_ends(const LocalView& view, std::size_t e, const PlaceOptions& options) {
+  const AxisEdge& edge = view.axis.edges[e];
+  if (!is_site_node(view.axis.nodes[edge.from]) || !is_site_node(view.axis.nodes[edge.to])) {
     return false;
   }
-  if (has_doorway(axis, edge)) {
+  if (has_doorway(view.axis, edge)) {
     return false;
   }
-  const auto from = first_constriction(axis, {e, true}, cell_m, options);
-  const auto to = first_constriction(axis, {e, false}, cell_m, options);
+  const auto from = first_constriction(view, {e, true}, options);
+  const auto to = first_constriction(view, {e, false}, options);
   return !from || !to || *from + *to >= edge.cells.size() - 1;
+}
+
+/// What bounds the axis around one of its cells.
+struct Sides {
+  int walls = 0;
+  int unknown = 0;
+};
+
+/// Looks at the basis points of the cell and of those beside it, which lie on either side of the
+/// axis.
+Sides sides_of(const LocalView& view, AxisWay way, std::size_t position) {
+  const Cell cell = view.axis.edges[way.edge].cells[index_on_edge(view.axis, way, position)];
+  Sides sides;
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      const Cell beside{cell.x + dx, cell.y + dy};
+      if (view.distances.state(beside) == CellState::kFree) {
+        const bool is_wall = view.is_wall_at(view.distances.basis_point(beside));
+        ++(is_wall ? sides.walls : sides.unknown);
+      }
+    }
+  }
+  return sides;
+}
+
+/// The least clearance between walls on the stretch ahead of a position, the position included.
+double least_ahead_m(const LocalView& view, AxisWay way, std::size_t position, double stretch_m) {
+  const AxisEdge& edge = view.axis.edges[way.edge];
+  double least_m = edge.clearance_m[index_on_edge(view.axis, way, position)];
+  double ahead_m = 0.0;
+  for (std::size_t i = position; i + 1 < edge.cells.size() && ahead_m < stretch_m; ++i) {
+    const std::size_t next = index_on_edge(view.axis, way, i + 1);
+    ahead_m += length_m(edge, index_on_edge(view.axis, way, i), next, view.grid.geometry().cell_m);
+    if (is_between_walls(view, way, i + 1)) {
+      least_m = std::min(least_m, edge.clearance_m[next]);
+    }
+  }
+  return least_m;
 }
 
 }  // namespace
@@ -149,46 +185,41 @@ MedialAxis with_corner_nodes(const MedialAxis& axis, double cell_m, double min_t
   return result;
 }
 
-std::optional<std::size_t> first_constriction(const MedialAxis& axis,
+bool is_along_wall(const LocalView& view, AxisWay way, std::size_t position) {
+  return sides_of(view, way, position).walls > 0;
+}
+
+bool is_between_walls(const LocalView& view, AxisWay way, std::size_t position) {
+  return sides_of(view, way, position).unknown == 0;
+}
+
+std::optional<std::size_t> first_constriction(const LocalView& view,
                                               AxisWay way,
-                                              double cell_m,
                                               const PlaceOptions& options) {
-  const AxisEdge& edge = axis.edges[way.edge];
-  const std::size_t count = edge.cells.size();
-  const auto clearance_m = [&](std::size_t i) {
-    return edge.clearance_m[index_on_edge(axis, way, i)];
-  };
-  const double start_m = kShareOfDisc * clearance_m(0);
+  const AxisEdge& edge = view.axis.edges[way.edge];
+  const auto index = [&](std::size_t i) { return index_on_edge(view.axis, way, i); };
+  const double start_m = kShareOfDisc * edge.clearance_m[index(0)];
   double travelled_m = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (travelled_m >= start_m) {
-      double least_m = clearance_m(i);
-      double ahead_m = 0.0;
-      for (std::size_t j = i; j + 1 < count && ahead_m < options.constriction_ahead_m; ++j) {
-        ahead_m +=
-            length_m(edge, index_on_edge(axis, way, j), index_on_edge(axis, way, j + 1), cell_m);
-        least_m = std::min(least_m, clearance_m(j + 1));
-      }
-      if (clearance_m(i) <= least_m + options.constriction_tolerance_m) {
-        return i;
-      }
+  for (std::size_t i = 0; i < edge.cells.size(); ++i) {
+    if (travelled_m >= start_m && is_along_wall(view, way, i) &&
+        edge.clearance_m[index(i)] <= least_ahead_m(view, way, i, options.constriction_ahead_m) +
+                                          options.constriction_tolerance_m) {
+      return i;
     }
-    if (i + 1 < count) {
-      travelled_m +=
-          length_m(edge, index_on_edge(axis, way, i), index_on_edge(axis, way, i + 1), cell_m);
+    if (i + 1 < edge.cells.size()) {
+      travelled_m += length_m(edge, index(i), index(i + 1), view.grid.geometry().cell_m);
     }
   }
   return std::nullopt;
 }
 
-std::vector<AxisSite> axis_sites(const MedialAxis& axis,
-                                 double cell_m,
-                                 const PlaceOptions& options) {
+std::vector<AxisSite> axis_sites(const LocalView& view, const PlaceOptions& options) {
+  const MedialAxis& axis = view.axis;
   std::vector<std::size_t> parent(axis.nodes.size());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
   std::vector<bool> is_inner(axis.edges.size(), false);
   for (std::size_t e = 0; e < axis.edges.size(); ++e) {
-    if (joins_its_ends(axis, e, cell_m, options)) {
+    if (joins_its_ends(view, e, options)) {
       const std::size_t a = root_of(&parent, axis.edges[e].from);
       const std::size_t b = root_of(&parent, axis.edges[e].to);
       parent[std::max(a, b)] = std::min(a, b);
@@ -211,8 +242,13 @@ std::vector<AxisSite> axis_sites(const MedialAxis& axis,
       }
     }
   }
-  std::erase_if(by_root, [](const AxisSite& site) { return site.nodes.empty(); });
-  return by_root;
+  std::vector<AxisSite> sites;
+  for (AxisSite& site : by_root) {
+    if (!site.nodes.empty()) {
+      sites.push_back(std::move(site));
+    }
+  }
+  return sites;
 }
 
 }  // namespace cairn

@@ -25,22 +25,26 @@ struct AxisSite {
                                            double cell_m,
                                            double min_turn_rad);
 
+/// Whether the axis, at this position of a way, is bounded by a wall on one side at least.
+[[nodiscard]] bool is_along_wall(const LocalView& view, AxisWay way, std::size_t position);
+
+/// Whether it is bounded by walls on both sides. Where it runs along unknown space its clearance
+/// says how far was seen, not how wide the passage is.
+[[nodiscard]] bool is_between_walls(const LocalView& view, AxisWay way, std::size_t position);
+
 /// Position on a way, in cells from its start, of the first constriction: where clearance has come
-/// down to within the tolerance of what it is at least on the stretch ahead, outside of the
-/// clearance disc of the node the way starts from. None where the way ends before.
-[[nodiscard]] std::optional<std::size_t> first_constriction(const MedialAxis& axis,
+/// down to within the tolerance of what it is at least between walls on the stretch ahead, outside
+/// of the clearance disc of the node the way starts from. None where the way ends before.
+[[nodiscard]] std::optional<std::size_t> first_constriction(const LocalView& view,
                                                             AxisWay way,
-                                                            double cell_m,
                                                             const PlaceOptions& options);
 
 /// Groups the nodes where the axis branches, turns or ends at walls. Two nodes at the ends of an
 /// edge are one site when the constrictions found from either of them overlap; a doorway between
 /// them keeps them apart nevertheless.
-[[nodiscard]] std::vector<AxisSite> axis_sites(const MedialAxis& axis,
-                                               double cell_m,
-                                               const PlaceOptions& options);
+[[nodiscard]] std::vector<AxisSite> axis_sites(const LocalView& view, const PlaceOptions& options);
 
-/// Cell and clearance number `position` of a way.
+/// Where on its edge a position of a way lies.
 [[nodiscard]] std::size_t index_on_edge(const MedialAxis& axis, AxisWay way, std::size_t position);
 
 }  // namespace cairn

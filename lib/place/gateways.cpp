@@ -43,26 +43,21 @@ std::size_t narrowest_between(const MedialAxis& axis,
   return best;
 }
 
-/// Free passage from a position on: to the end of the way, and on where it does not end there.
-double seen_beyond_m(const MedialAxis& axis,
-                     AxisWay way,
-                     std::size_t position,
-                     double cell_m,
-                     const PlaceOptions& options) {
-  const AxisEdge& edge = axis.edges[way.edge];
-  const AxisNode& end = axis.nodes[way.forward ? edge.to : edge.from];
-  const double along_m = length_m(edge, index_on_edge(axis, way, position),
-                                  index_on_edge(axis, way, edge.cells.size() - 1), cell_m);
-  switch (end.end) {
-    case AxisEnd::kMeets:
-      return along_m + end.clearance_m + options.doorway_depth_m;
-    case AxisEnd::kBlocked:
-      return along_m + end.clearance_m;
-    case AxisEnd::kUnknown:
-    case AxisEnd::kBorder:
-      break;
+/// Known passage from a position on. Only stretches that walls bound count: what a few beams show
+/// through a door or a window is bounded by unknown space, and might be no passage at all.
+double seen_beyond_m(const LocalView& view, AxisWay way, std::size_t position) {
+  const double cell_m = view.grid.geometry().cell_m;
+  const AxisEdge& edge = view.axis.edges[way.edge];
+  double seen_m = 0.0;
+  for (std::size_t i = position; i + 1 < edge.cells.size(); ++i) {
+    const std::size_t index = index_on_edge(view.axis, way, i);
+    if (is_along_wall(view, way, i)) {
+      seen_m += length_m(edge, index, index_on_edge(view.axis, way, i + 1), cell_m);
+    }
   }
-  return along_m;
+  const AxisNode& end = view.axis.nodes[way.forward ? edge.to : edge.from];
+  const bool is_bounded = end.end == AxisEnd::kMeets || end.end == AxisEnd::kBlocked;
+  return seen_m + (is_bounded ? end.clearance_m : 0.0);
 }
 
 double bearing_beyond(const LocalView& view,
@@ -98,6 +93,13 @@ std::optional<Gateway> gateway_at(const LocalView& view, AxisWay way, std::size_
   return gateway;
 }
 
+/// Whether both ends of a line lie on walls. The narrow end of a wedge of known space does not.
+bool is_between_two_walls(const LocalView& view, const Gateway& line) {
+  return std::all_of(line.basis_points.begin(), line.basis_points.end(), [&](const Vector2d& p) {
+    return view.is_wall_at(view.grid.geometry().cell_at(p));
+  });
+}
+
 double bearing_from(const Vector2d& center, const Gateway& gateway) {
   const Vector2d to = gateway.middle - center;
   return std::atan2(to.y(), to.x());
@@ -111,7 +113,7 @@ WayOut way_out(const LocalView& view, AxisWay way, const PlaceOptions& options) 
   const AxisEnd end = view.axis.nodes[way.forward ? edge.to : edge.from].end;
   WayOut out;
   out.is_undecided = end != AxisEnd::kBlocked;
-  const auto first = first_constriction(view.axis, way, cell_m, options);
+  const auto first = first_constriction(view, way, options);
   if (!first) {
     return out;
   }
@@ -121,12 +123,12 @@ WayOut way_out(const LocalView& view, AxisWay way, const PlaceOptions& options) 
   if (!line) {
     return out;
   }
-  line->seen_beyond_m = seen_beyond_m(view.axis, way, position, cell_m, options);
-  const bool is_doorway = line->width_m < options.doorway_below_m;
-  if (line->seen_beyond_m >= (is_doorway ? options.doorway_depth_m : options.seen_beyond_m)) {
+  line->seen_beyond_m = seen_beyond_m(view, way, position);
+  const bool is_narrow = line->width_m < options.doorway_below_m;
+  if (line->seen_beyond_m >= (is_narrow ? options.doorway_depth_m : options.seen_beyond_m)) {
     out.gateway = line;
     out.is_undecided = false;
-  } else if (is_doorway) {
+  } else if (is_narrow && is_between_two_walls(view, *line)) {
     out.closed = line;
     out.is_undecided = false;
   }

@@ -117,6 +117,28 @@ void clear_specks(double speck_m, OccupancyGrid* grid) {
   }
 }
 
+/// Cells that are not free, at walls or within two cells of one.
+std::vector<bool> walls_with_chinks(const OccupancyGrid& grid) {
+  constexpr int kChink = 2;
+  std::vector<bool> is_wall(grid.geometry().cell_count(), false);
+  for (int y = 0; y < grid.geometry().height; ++y) {
+    for (int x = 0; x < grid.geometry().width; ++x) {
+      if (grid.state({x, y}) != CellState::kOccupied) {
+        continue;
+      }
+      for (int dy = -kChink; dy <= kChink; ++dy) {
+        for (int dx = -kChink; dx <= kChink; ++dx) {
+          const Cell c{x + dx, y + dy};
+          if (grid.contains(c) && grid.state(c) != CellState::kFree) {
+            is_wall[grid.geometry().index_of(c)] = true;
+          }
+        }
+      }
+    }
+  }
+  return is_wall;
+}
+
 }  // namespace
 
 LocalView look_around(const OccupancyGrid& grid,
@@ -126,6 +148,7 @@ LocalView look_around(const OccupancyGrid& grid,
   view.grid = coarse_window(grid, p_grid_robot, options);
   fill_stripes(&view.grid);
   clear_specks(options.speck_m, &view.grid);
+  view.is_wall = walls_with_chinks(view.grid);
   view.distances = distance_transform(view.grid);
   view.robot = view.grid.geometry().cell_at(p_grid_robot);
   MedialAxisOptions axis_options;

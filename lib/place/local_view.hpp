@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "grid/distance_transform.hpp"
 #include "grid/medial_axis.hpp"
 #include "grid/occupancy_grid.hpp"
@@ -13,6 +15,13 @@ struct LocalView {
   DistanceTransform distances;
   MedialAxis axis;
   Cell robot;
+  std::vector<bool> is_wall;  ///< By cell: a wall, or a chink in one: see `is_wall_at`.
+
+  /// Whether what bounds free space in a cell is a wall. Between the returns of a laser a wall has
+  /// chinks of unknown cells; those within two cells of a return count as wall.
+  [[nodiscard]] bool is_wall_at(Cell c) const {
+    return grid.contains(c) && is_wall[grid.geometry().index_of(c)];
+  }
 };
 
 /// Cuts the window around the robot out of a map, coarsens it to cells of at most `cell_m` whose

@@ -100,7 +100,7 @@ std::vector<PlaceNeighbourhood> find_places(const OccupancyGrid& grid,
   const double cell_m = view.grid.geometry().cell_m;
   view.axis = with_corner_nodes(view.axis, cell_m, kWeakCorner * options.min_corner_rad);
   std::vector<PlaceNeighbourhood> places;
-  for (const AxisSite& site : axis_sites(view.axis, cell_m, options)) {
+  for (const AxisSite& site : axis_sites(view, options)) {
     PlaceNeighbourhood place = neighbourhood_of(view, site, options);
     if (is_place(place.gateways, options) && place.distinctiveness >= options.min_distinctiveness) {
       places.push_back(std::move(place));

@@ -112,9 +112,11 @@ void PlaceDetector::look(const StampedPose& now,
     if (is_elsewhere && same == nullptr && !has_crossed) {
       stay_->add_reading(*here);
     }
-    announce(now, events);
-    if (stay_->gateway_left_through(options_.left_beyond_m) >= 0 ||
-        stay_->is_far_outside(options_.left_beyond_m) || (is_elsewhere && has_crossed)) {
+    const bool is_left = stay_->gateway_left_through(options_.left_beyond_m) >= 0 ||
+                         stay_->is_far_outside(options_.left_beyond_m) ||
+                         (is_elsewhere && has_crossed);
+    announce(now, is_left, events);
+    if (is_left) {
       close_stay(grid);
     }
   }
@@ -123,7 +125,7 @@ void PlaceDetector::look(const StampedPose& now,
   }
   if (stay_) {
     stay_->keep_map(grid, options_.crop_margin_m);
-    announce(now, events);
+    announce(now, false, events);
   }
 }
 
@@ -175,8 +177,10 @@ void PlaceDetector::release_waiting(std::vector<PlaceEvent>* events) {
   waiting_.reset();
 }
 
-void PlaceDetector::announce(const StampedPose& now, std::vector<PlaceEvent>* events) {
-  if (!stay_->is_complete()) {
+void PlaceDetector::announce(const StampedPose& now,
+                             bool is_last_chance,
+                             std::vector<PlaceEvent>* events) {
+  if (!stay_->is_settled() && !(is_last_chance && stay_->is_complete())) {
     return;
   }
   if (!is_announced_ && has_come_back()) {

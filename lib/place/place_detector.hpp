@@ -71,7 +71,7 @@ class PlaceDetector {
   [[nodiscard]] bool has_come_back() const;
   void take_up_again();
   [[nodiscard]] double same_spot_m(const PlaceNeighbourhood& place) const;
-  void announce(const StampedPose& now, std::vector<PlaceEvent>* events);
+  void announce(const StampedPose& now, bool is_last_chance, std::vector<PlaceEvent>* events);
   void release_waiting(std::vector<PlaceEvent>* events);
 
   PlaceOptions options_;

@@ -8,11 +8,11 @@ namespace cairn {
 /// How places are found in a local map, and how visits are told. In the configuration file: the
 /// object "place".
 struct PlaceOptions {
-  double window_m = 16.0;      ///< Side of the square around the robot that is looked at. [4, 100]
+  double window_m = 20.0;      ///< Side of the square around the robot that is looked at. [4, 100]
   double cell_m = 0.1;         ///< Coarsest cell worked with; a finer map is coarsened. (0, 1]
   double robot_width_m = 0.5;  ///< Narrower passages are none. > 0
   double coastal_distance_m = 1.0;    ///< Alcoves less deep are no branches. > 0
-  double speck_m = 0.3;               ///< Isolated obstacles up to this extent are ignored. >= 0
+  double speck_m = 0.8;               ///< Isolated obstacles up to this extent are ignored. >= 0
   double constriction_ahead_m = 2.0;  ///< Stretch of axis compared for a constriction. > 0
   double constriction_tolerance_m = 0.1;  ///< Roughness of walls. >= 0
   double min_corner_rad = 0.79;           ///< Two gateways less out of line are no place. (0, pi)

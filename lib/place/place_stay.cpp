@@ -103,15 +103,18 @@ PlaceStay::PlaceStay(const StampedPose& entry,
 void PlaceStay::add_reading(const PlaceNeighbourhood& reading) {
   last_reading_ = reading;
   if (!reading.is_complete) {
+    ++incomplete_since_;
     return;
   }
   for (Group& group : groups_) {
     if (agree(group.latest, reading)) {
       group.latest = reading;
       ++group.count;
+      incomplete_since_ = std::max(0, incomplete_since_ - 1);
       return;
     }
   }
+  incomplete_since_ = groups_.empty() ? 0 : incomplete_since_;
   groups_.push_back({1, reading});
 }
 
@@ -122,15 +125,25 @@ void PlaceStay::add_pose(const StampedPose& pose) {
   }
 }
 
-bool PlaceStay::is_complete() const {
-  return !groups_.empty();
-}
-
-const PlaceNeighbourhood& PlaceStay::best() const {
+const PlaceStay::Group* PlaceStay::best_group() const {
   const Group* best = nullptr;
   for (const Group& group : groups_) {
     best = best == nullptr || group.count >= best->count ? &group : best;
   }
+  return best;
+}
+
+bool PlaceStay::is_complete() const {
+  const Group* const best = best_group();
+  return best != nullptr && best->count >= incomplete_since_;
+}
+
+bool PlaceStay::is_settled() const {
+  return is_complete() && best_group()->count > 1;
+}
+
+const PlaceNeighbourhood& PlaceStay::best() const {
+  const Group* const best = best_group();
   return best != nullptr ? best->latest : last_reading_;
 }
 

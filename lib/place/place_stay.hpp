@@ -43,8 +43,10 @@ class PlaceStay {
   /// Takes the robot's next pose; poses closer than a few centimetres are not kept.
   void add_pose(const StampedPose& pose);
 
-  /// Whether the star was complete at least once.
+  /// Whether the star was read completely, and not more often incompletely again since then.
   [[nodiscard]] bool is_complete() const;
+  /// Whether it was read completely more than once.
+  [[nodiscard]] bool is_settled() const;
   /// The reading that counts by now, in frame lpm: the complete one seen most often, the later one
   /// of equals; the last one while none was complete.
   [[nodiscard]] const PlaceNeighbourhood& best() const;
@@ -82,6 +84,7 @@ class PlaceStay {
     PlaceNeighbourhood latest;
   };
 
+  [[nodiscard]] const Group* best_group() const;
   [[nodiscard]] int arrival() const;
   [[nodiscard]] int nearest_gateway(const Vector2d& p_lpm) const;
 
@@ -89,6 +92,7 @@ class PlaceStay {
   bool has_come_from_outside_;
   std::vector<StampedPose> way_;
   std::vector<Group> groups_;  ///< Of complete readings.
+  int incomplete_since_ = 0;   ///< Incomplete readings after the first complete one, not made good.
   PlaceNeighbourhood last_reading_;
   int departure_ = -1;
   Pose2 T_lpm_place_;

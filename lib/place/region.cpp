@@ -59,7 +59,7 @@ class RegionFlood {
       if (basis == c || !at_coast(c)) {
         continue;
       }
-      const bool is_wall = view_.distances.state(basis) == CellState::kOccupied;
+      const bool is_wall = view_.is_wall_at(basis);
       if (is_wall && walls.insert(basis).second) {
         normals.push_back(to_basis.normalized());
       } else if (!is_wall) {
