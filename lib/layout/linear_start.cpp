@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
@@ -26,7 +27,7 @@ template <typename T>
 Vector<T> solved(const std::vector<Eigen::Triplet<T>>& lower, const Vector<T>& right) {
   Sparse<T> matrix(right.size(), right.size());
   matrix.setFromTriplets(lower.begin(), lower.end());
-  Eigen::SimplicialLDLT<Sparse<T>, Eigen::Lower> solver(matrix);
+  Eigen::SimplicialLDLT<Sparse<T>, Eigen::Lower, Eigen::NaturalOrdering<int>> solver(matrix);
   CAIRN_CHECK(solver.info() == Eigen::Success);
   return solver.solve(right);
 }

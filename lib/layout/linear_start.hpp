@@ -10,7 +10,7 @@ namespace cairn {
 ///
 /// Source: the initialisation by rotations first of Carlone, Tron, Daniilidis and Dellaert, ICRA
 /// 2015.
-/// @pre all places are joined by travels
+/// @pre all places are joined by travels, and numbered by elimination_order (or it takes longer)
 [[nodiscard]] PlaceVector linear_start(int place_count,
                                        const std::vector<TravelConstraint>& travels);
 

@@ -117,13 +117,20 @@ bool NormalEquations::expand_about(const PlaceVector& places, double outlier_sig
   return solver_.info() == Eigen::Success;
 }
 
-PlaceVector NormalEquations::after_step(const PlaceVector& places) const {
-  const Eigen::VectorXd step = solver_.solve(descent_);
-  PlaceVector moved = places;
-  for (std::size_t place = 1; place < moved.size(); ++place) {
-    moved[place] += step.segment<3>(3 * static_cast<Eigen::Index>(place) - 3);
+Eigen::VectorXd NormalEquations::step() const {
+  return solver_.solve(descent_);
+}
+
+double NormalEquations::predicted_gain(const Eigen::VectorXd& step) const {
+  return step.dot(descent_);
+}
+
+PlaceVector moved(const PlaceVector& places, const Eigen::VectorXd& step, double share) {
+  PlaceVector after = places;
+  for (std::size_t place = 1; place < after.size(); ++place) {
+    after[place] += share * step.segment<3>(3 * static_cast<Eigen::Index>(place) - 3);
   }
-  return moved;
+  return after;
 }
 
 std::vector<Matrix3d> NormalEquations::place_covariances() const {

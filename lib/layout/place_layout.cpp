@@ -1,14 +1,13 @@
 #include "layout/place_layout.hpp"
 
 #include <cmath>
-#include <deque>
 #include <optional>
 #include <string>
 
-#include <ceres/ceres.h>
-
 #include "base/validator.hpp"
+#include "layout/damped_descent.hpp"
 #include "layout/displacement.hpp"
+#include "layout/elimination_order.hpp"
 #include "layout/linear_start.hpp"
 #include "layout/normal_equations.hpp"
 #include "layout/travel_residual.hpp"
@@ -20,39 +19,13 @@ namespace {
 constexpr int kMaxPlaces = 1'000'000;
 /// A sum of squares that is nothing but rounding.
 constexpr double kNoCost = 1e-12;
+/// Part of the sum of squares that is not worth another step: the last one gains its square.
+constexpr double kLeastGain = 1e-6;
+constexpr double kLeastShare = 1e-3;
 
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
-
-/// (15): one factor F of G(chi), as a whitened residual. A heading is any angle: the residual is
-/// wrapped, so that adding a step to it is a retraction of the circle and needs no other manifold.
-class TravelCost final : public ceres::SizedCostFunction<3, 3, 3> {
- public:
-  explicit TravelCost(const TravelResidual* travel) : travel_(travel) {}
-
-  bool Evaluate(const double* const* poses, double* residual, double** jacobians) const override {
-    const Eigen::Map<const Eigen::Vector3d> from(poses[0]);
-    const Eigen::Map<const Eigen::Vector3d> to(poses[1]);
-    Matrix3d by_from;
-    Matrix3d by_to;
-    Eigen::Map<Eigen::Vector3d>(residual).noalias() = travel_->at(from, to, &by_from, &by_to);
-    if (jacobians != nullptr) {
-      copy_by_rows(by_from, jacobians[0]);
-      copy_by_rows(by_to, jacobians[1]);
-    }
-    return true;
-  }
-
- private:
-  static void copy_by_rows(const Matrix3d& matrix, double* rows) {
-    if (rows != nullptr) {  // Null for a place that is held.
-      Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>{rows} = matrix;
-    }
-  }
-
-  const TravelResidual* travel_;
-};
 
 Status validate_travels(int place_count, const std::vector<TravelConstraint>& travels) {
   if (place_count < 1 || place_count > kMaxPlaces) {
@@ -85,14 +58,6 @@ Status require_connected(const TravelTree& tree) {
     }
   }
   return {};
-}
-
-double chi2_at(const PlaceVector& places, const std::vector<TravelResidual>& travels) {
-  double chi2 = 0.0;
-  for (const TravelResidual& travel : travels) {
-    chi2 += travel.at(places[at(travel.from)], places[at(travel.to)]).squaredNorm();
-  }
-  return chi2;
 }
 
 /// The earlier layout moved to the frame of its place 0, with the other places chained on.
@@ -128,78 +93,85 @@ std::optional<PlaceVector> start_from(const PlaceLayout* previous,
   return start;
 }
 
-ceres::Solver::Options solver_options(const LayoutOptions& options) {
-  ceres::Solver::Options solver;
-  solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  solver.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
-  solver.num_threads = 1;
-  solver.max_num_iterations = options.max_iterations;
-  solver.function_tolerance = 1e-9;
-  solver.gradient_tolerance = 1e-12;
-  solver.parameter_tolerance = 1e-10;
-  solver.logging_type = ceres::SILENT;
-  return solver;
-}
-
-/// Gauss-Newton steps for as long as they descend.
-/// @return the number of steps; none where a step did not descend, with the places before it
+/// Gauss-Newton steps, shortened where they overshoot.
+/// @return the number of steps; none where they do not descend, with the places before
 std::optional<int> descend_freely(NormalEquations* equations,
                                   const std::vector<TravelResidual>& travels,
                                   const LayoutOptions& options,
                                   PlaceVector* places) {
   double cost = cost_of(*places, travels, options.outlier_sigmas);
-  for (int step = 1; step <= options.max_iterations; ++step) {
+  for (int iteration = 1; iteration <= options.max_iterations; ++iteration) {
     if (!equations->expand_about(*places, options.outlier_sigmas)) {
       return std::nullopt;
     }
-    PlaceVector moved = equations->after_step(*places);
-    const double moved_cost = cost_of(moved, travels, options.outlier_sigmas);
-    if (!(moved_cost <= cost * (1.0 + 1e-9) + kNoCost)) {
-      return std::nullopt;
+    const Eigen::VectorXd step = equations->step();
+    const double gain = equations->predicted_gain(step);
+    double share = 1.0;
+    PlaceVector after = moved(*places, step, share);
+    double cost_after = cost_of(after, travels, options.outlier_sigmas);
+    while (!(cost_after <= cost * (1.0 + 1e-9) + kNoCost)) {
+      share *= 0.5;
+      if (share < kLeastShare) {
+        return std::nullopt;
+      }
+      after = moved(*places, step, share);
+      cost_after = cost_of(after, travels, options.outlier_sigmas);
     }
-    *places = std::move(moved);
-    if (cost - moved_cost <= 1e-9 * cost + kNoCost) {
-      return step;
+    *places = std::move(after);
+    cost = cost_after;
+    if (share == 1.0 && gain <= kLeastGain * cost + kNoCost) {
+      return iteration;
     }
-    cost = moved_cost;
   }
   return std::nullopt;
 }
 
-/// Moves the places to the nearest least sum of squares where Gauss-Newton steps overshoot.
-Result<int> descend_damped(const std::vector<TravelResidual>& travels,
-                           const LayoutOptions& options,
-                           PlaceVector* places) {
-  ceres::HuberLoss loss(options.outlier_sigmas > 0.0 ? options.outlier_sigmas : 1.0);
-  std::deque<TravelCost> costs;  // Ceres keeps their addresses.
-  ceres::Problem::Options ownership;
-  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ownership.disable_all_safety_checks = true;
-  ceres::Problem problem(ownership);
-  for (Eigen::Vector3d& place : *places) {
-    problem.AddParameterBlock(place.data(), 3);
+/// How a layout was found.
+struct Descent {
+  int iterations = 0;
+  std::vector<Matrix3d> covariances;  ///< By place; empty unless asked for.
+};
+
+Result<Descent> descend(const std::vector<TravelResidual>& travels,
+                        const LayoutOptions& options,
+                        PlaceVector* places) {
+  if (places->size() == 1) {
+    return Descent{0, std::vector<Matrix3d>(options.covariances ? 1 : 0, Matrix3d::Zero())};
   }
-  problem.SetParameterBlockConstant(places->front().data());
-  for (const TravelResidual& travel : travels) {
-    if (travel.from != travel.to) {  // A loop path says nothing of where its place lies.
-      problem.AddResidualBlock(&costs.emplace_back(&travel),
-                               options.outlier_sigmas > 0.0 ? &loss : nullptr,
-                               (*places)[at(travel.from)].data(), (*places)[at(travel.to)].data());
+  Descent descent;
+  NormalEquations equations(static_cast<int>(places->size()), travels);
+  const std::optional<int> steps = descend_freely(&equations, travels, options, places);
+  if (steps) {
+    descent.iterations = *steps;
+  } else {
+    const Result<int> damped_steps = descend_damped(travels, options, places);
+    if (!damped_steps) {
+      return damped_steps.error();
     }
+    descent.iterations = *damped_steps;
   }
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver_options(options), &problem, &summary);
-  if (summary.termination_type != ceres::CONVERGENCE) {
-    return Error{ErrorCode::kNotConverged, "layout: " + summary.message};
+  if (options.covariances) {
+    if (!equations.expand_about(*places, 0.0)) {
+      return Error{ErrorCode::kNotConverged, "layout: the curvature is singular"};
+    }
+    descent.covariances = equations.place_covariances();
   }
-  return static_cast<int>(summary.iterations.size());
+  return descent;
 }
 
-PlaceLayout report(const PlaceVector& places, const std::vector<TravelResidual>& travels) {
+/// @param number by place, its number in `places` and in the covariances
+PlaceLayout report(const PlaceVector& places,
+                   const std::vector<TravelResidual>& travels,
+                   const Descent& descent,
+                   const std::vector<int>& number) {
   PlaceLayout layout;
-  for (const Eigen::Vector3d& place : places) {
+  layout.iterations = descent.iterations;
+  for (const int position : number) {
+    const Eigen::Vector3d& place = places[at(position)];
     layout.T_global_place.emplace_back(place.x(), place.y(), place.z());
+    if (!descent.covariances.empty()) {
+      layout.covariances.push_back(descent.covariances[at(position)]);
+    }
   }
   for (const TravelResidual& travel : travels) {
     const double chi2 = travel.at(places[at(travel.from)], places[at(travel.to)]).squaredNorm();
@@ -208,6 +180,28 @@ PlaceLayout report(const PlaceVector& places, const std::vector<TravelResidual>&
     layout.log_likelihood -= 0.5 * (chi2 + travel.log_det_covariance + 3.0 * std::log(2.0 * kPi));
   }
   return layout;
+}
+
+std::vector<TravelConstraint> renumbered(const std::vector<TravelConstraint>& travels,
+                                         const std::vector<int>& number) {
+  std::vector<TravelConstraint> numbered = travels;
+  for (TravelConstraint& travel : numbered) {
+    travel.from = number[at(travel.from)];
+    travel.to = number[at(travel.to)];
+  }
+  return numbered;
+}
+
+std::optional<PlaceVector> renumbered(const std::optional<PlaceVector>& places,
+                                      const std::vector<int>& number) {
+  if (!places) {
+    return std::nullopt;
+  }
+  PlaceVector numbered(places->size());
+  for (std::size_t place = 0; place < places->size(); ++place) {
+    numbered[at(number[place])] = (*places)[place];
+  }
+  return numbered;
 }
 
 }  // namespace
@@ -233,36 +227,24 @@ Result<PlaceLayout> solve_layout(int place_count,
       !joined) {
     return joined.error();
   }
+  const std::vector<int> number = elimination_order(place_count, travels);
+  const std::vector<TravelConstraint> numbered = renumbered(travels, number);
   std::vector<TravelResidual> residuals;
-  residuals.reserve(travels.size());
-  for (const TravelConstraint& travel : travels) {
+  residuals.reserve(numbered.size());
+  for (const TravelConstraint& travel : numbered) {
     residuals.push_back(residual_of(travel));
   }
-  std::optional<PlaceVector> places = start_from(previous, place_count, travels);
+  std::optional<PlaceVector> places =
+      renumbered(start_from(previous, place_count, travels), number);
   // Beyond three standard deviations in the mean, the earlier layout says little: start anew.
-  if (!places || chi2_at(*places, residuals) > 27.0 * static_cast<double>(travels.size())) {
-    places = linear_start(place_count, travels);
+  if (!places || cost_of(*places, residuals, 0.0) > 27.0 * static_cast<double>(travels.size())) {
+    places = linear_start(place_count, numbered);
   }
-  if (place_count == 1) {
-    PlaceLayout layout = report(*places, residuals);
-    layout.covariances.resize(options.covariances ? 1 : 0, Matrix3d::Zero());
-    return layout;
+  const Result<Descent> descent = descend(residuals, options, &*places);
+  if (!descent) {
+    return descent.error();
   }
-  NormalEquations equations(place_count, residuals);
-  std::optional<int> iterations = descend_freely(&equations, residuals, options, &*places);
-  if (!iterations) {
-    const Result<int> damped = descend_damped(residuals, options, &*places);
-    if (!damped) {
-      return damped.error();
-    }
-    iterations = *damped;
-  }
-  PlaceLayout layout = report(*places, residuals);
-  layout.iterations = *iterations;
-  if (options.covariances && equations.expand_about(*places, 0.0)) {
-    layout.covariances = equations.place_covariances();
-  }
-  return layout;
+  return report(*places, residuals, *descent, number);
 }
 
 }  // namespace cairn

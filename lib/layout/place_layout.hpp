@@ -51,7 +51,8 @@ struct PlaceLayout {
 /// sparse non-linear least squares, which needs no approximation of large heading errors. Residuals
 /// are whitened by the square root of the information, headings live on the circle, place 0 is the
 /// origin of the global frame. The start is linear: all headings from the chordal relaxation, then
-/// all positions; so the result does not depend on the order of travels. Deterministic, one thread.
+/// all positions; so no drift leads astray. Gauss-Newton steps follow, and Ceres where these do not
+/// descend. Deterministic, one thread.
 ///
 /// @param previous an earlier layout of the first places, as the start instead: for adding travels
 ///     to a map. Ignored where it is null, has no or more places, or is not finite. Places beyond

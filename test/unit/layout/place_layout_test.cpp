@@ -7,6 +7,10 @@
 #include <Eigen/LU>
 #include <gmock/gmock.h>
 
+#include "layout/damped_descent.hpp"
+#include "layout/linear_start.hpp"
+#include "layout/normal_equations.hpp"
+
 namespace cairn {
 namespace {
 
@@ -214,6 +218,21 @@ TEST(PlaceLayout, GoesOnFromAnEarlierLayoutToTheSameOptimum) {
     ASSERT_TRUE(later) << later.error().message;
     const PlaceLayout afresh = layout_of(20, world.travels);
     EXPECT_NEAR(later->chi2, afresh.chi2, 1e-6 * (1.0 + afresh.chi2));
+  }
+}
+
+TEST(PlaceLayout, DampedStepsFindTheSameOptimum) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const World world = random_world(seed, 20, 12);
+    std::vector<TravelResidual> residuals;
+    for (const TravelConstraint& travel : world.travels) {
+      residuals.push_back(residual_of(travel));
+    }
+    PlaceVector places = linear_start(20, world.travels);
+    ASSERT_TRUE(descend_damped(residuals, {}, &places));
+    const double chi2 = layout_of(20, world.travels).chi2;
+    EXPECT_NEAR(cost_of(places, residuals, 0.0), chi2, 1e-6 * (1.0 + chi2));
   }
 }
 
