@@ -1,6 +1,7 @@
 #include "lpm/correlative_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -22,36 +23,63 @@ bool CorrelativeSearch::is_worse(const Candidate& a, const Candidate& b) {
   return std::tie(a.bound, a.angle, a.y, a.x) < std::tie(b.bound, b.angle, b.y, b.x);
 }
 
-void CorrelativeSearch::prepare(const DistanceField& walls, double hit_sigma_m) {
-  geometry_ = walls.geometry();
+void CorrelativeSearch::prepare(const DistanceField& walls,
+                                double hit_sigma_m,
+                                const Vector2d& middle,
+                                double reach_m) {
+  const GridGeometry& whole = walls.geometry();
+  const auto clamped = [&whole](const Vector2d& p) {
+    const Vector2d cells = (p - whole.origin_m) / whole.cell_m;
+    return Cell{static_cast<int>(std::clamp(cells.x(), 0.0, 1.0 * whole.width)),
+                static_cast<int>(std::clamp(cells.y(), 0.0, 1.0 * whole.height))};
+  };
+  const Cell low = clamped(middle - Vector2d::Constant(reach_m));
+  const Cell high = clamped(middle + Vector2d::Constant(reach_m));
+  geometry_.cell_m = whole.cell_m;
+  geometry_.origin_m = whole.origin_m + whole.cell_m * Vector2d(low.x, low.y);
+  geometry_.width = high.x - low.x;
+  geometry_.height = high.y - low.y;
+  pyramid_.resize(kLevels);
+  take_walls(walls, hit_sigma_m, low);
+  for (int level = 1; level < kLevels; ++level) {
+    raise_level(level);
+  }
+}
+
+void CorrelativeSearch::take_walls(const DistanceField& walls, double hit_sigma_m, Cell low) {
   std::array<std::uint8_t, DistanceField::kFar + 1> likelihood{};
   const double sigma_cells = hit_sigma_m / geometry_.cell_m;
   for (std::size_t squared = 0; squared < DistanceField::kFar; ++squared) {
     const double exponent = -0.5 * static_cast<double>(squared) / (sigma_cells * sigma_cells);
     likelihood[squared] = static_cast<std::uint8_t>(std::lround(kFullScore * std::exp(exponent)));
   }
-  pyramid_.resize(kLevels);
   pyramid_[0].resize(geometry_.cell_count());
-  std::transform(walls.squared().begin(), walls.squared().end(), pyramid_[0].begin(),
-                 [&](std::uint8_t squared) { return likelihood[squared]; });
+  for (int y = 0; y < geometry_.height && geometry_.width > 0; ++y) {
+    const std::uint8_t* const from =
+        walls.squared().data() + walls.geometry().index_of({low.x, low.y + y});
+    std::uint8_t* const row = pyramid_[0].data() + geometry_.index_of({0, y});
+    std::transform(from, from + geometry_.width, row,
+                   [&](std::uint8_t squared) { return likelihood[squared]; });
+  }
+}
+
+void CorrelativeSearch::raise_level(int level) {
   const int width = geometry_.width;
   const int height = geometry_.height;
-  for (int level = 1; level < kLevels; ++level) {
-    const int half = 1 << (level - 1);
-    const std::vector<std::uint8_t>& below = pyramid_[static_cast<std::size_t>(level - 1)];
-    std::vector<std::uint8_t>& here = pyramid_[static_cast<std::size_t>(level)];
-    here.resize(below.size());
-    for (int y = 0; y < height; ++y) {
-      const std::uint8_t* const lower = below.data() + geometry_.index_of({0, y});
-      const bool has_upper = y + half < height;
-      const std::uint8_t* const upper = has_upper ? lower + half * width : lower;
-      std::uint8_t* const row = here.data() + geometry_.index_of({0, y});
-      for (int x = 0; x + half < width; ++x) {
-        row[x] = std::max(std::max(lower[x], lower[x + half]), std::max(upper[x], upper[x + half]));
-      }
-      for (int x = std::max(0, width - half); x < width; ++x) {
-        row[x] = std::max(lower[x], upper[x]);
-      }
+  const int half = 1 << (level - 1);
+  const std::vector<std::uint8_t>& below = pyramid_[static_cast<std::size_t>(level - 1)];
+  std::vector<std::uint8_t>& here = pyramid_[static_cast<std::size_t>(level)];
+  here.resize(below.size());
+  for (int y = 0; y < height && width > 0; ++y) {
+    const std::uint8_t* const lower = below.data() + geometry_.index_of({0, y});
+    const bool has_upper = y + half < height;
+    const std::uint8_t* const upper = has_upper ? lower + half * width : lower;
+    std::uint8_t* const row = here.data() + geometry_.index_of({0, y});
+    for (int x = 0; x + half < width; ++x) {
+      row[x] = std::max(std::max(lower[x], lower[x + half]), std::max(upper[x], upper[x + half]));
+    }
+    for (int x = std::max(0, width - half); x < width; ++x) {
+      row[x] = std::max(lower[x], upper[x]);
     }
   }
 }

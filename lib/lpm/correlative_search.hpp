@@ -32,9 +32,14 @@ struct SearchResult {
 /// Sec. V-B.
 class CorrelativeSearch {
  public:
-  /// Takes the walls to search on, as they are now.
+  /// Takes the walls to search on, as they are now, as far as a square reaches; beyond it there are
+  /// none.
   /// @param hit_sigma_m spread of a point around a wall, > 0
-  void prepare(const DistanceField& walls, double hit_sigma_m);
+  /// @param reach_m half the side of the square, >= 0
+  void prepare(const DistanceField& walls,
+               double hit_sigma_m,
+               const Vector2d& middle,
+               double reach_m);
 
   /// @param points in the body frame; their normals do not matter here
   /// @pre prepare() has been called
@@ -52,6 +57,8 @@ class CorrelativeSearch {
 
   /// By bound, and in a fixed order where bounds are equal.
   [[nodiscard]] static bool is_worse(const Candidate& a, const Candidate& b);
+  void take_walls(const DistanceField& walls, double hit_sigma_m, Cell low);
+  void raise_level(int level);
   void place_points(const std::vector<SurfacePoint>& points, const SearchWindow& window);
   [[nodiscard]] double bound_of(const Candidate& block, const SearchWindow& window) const;
   [[nodiscard]] double likelihood_sum(const Candidate& block) const;

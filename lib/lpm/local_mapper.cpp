@@ -26,6 +26,8 @@ constexpr double kSlip = 25.0;               // squared Mahalanobis of fix and p
 constexpr double kLeastTimeStep_s = 1.0;     // recorded stamps are not to be trusted below this
 constexpr double kSpeedSigma_m_per_s = 0.5;  // for want of odometry
 constexpr double kTurnSigma_rad_per_s = 0.7;
+constexpr double kGoodScore = 0.85;      // a match that leaves no wish for another
+constexpr double kClearlyBetter = 0.05;  // in score
 constexpr double kRadPerTravel_m = 3.0;  // a turn of 1 rad renews the map as so much travel
 
 Matrix3d diagonal(double sigma_x_m, double sigma_y_m, double sigma_rad) {
@@ -109,7 +111,7 @@ LocalFix LocalMapper::absorb(const JoinedScan& joined) {
     if (matcher_.is_blocked()) {
       fix.note = FixNote::kBlockedSensor;
     } else {
-      settle(matcher_.match(map_, predicted), predicted, &fix);
+      settle(best_match(predicted, seconds_between(time_, fix.time)), predicted, &fix);
     }
     if (!is_believed && fix.is_matched) {
       fix.note = FixNote::kTeleport;
@@ -118,6 +120,17 @@ LocalFix LocalMapper::absorb(const JoinedScan& joined) {
   advance(joined, fix);
   draw(joined.scan, fix.note);
   return fix;
+}
+
+ScanMatch LocalMapper::best_match(const GaussianPose& predicted, double dt_s) {
+  const ScanMatch match = matcher_.match(map_, predicted);
+  if (match.score >= kGoodScore || dt_s <= 0.0) {
+    return match;
+  }
+  // Odometry that stalls and catches up later is wrong twice; the robot just goes on meanwhile.
+  const GaussianPose continued = compounded({T_lpm_robot_, uncertainty_}, continued_motion(dt_s));
+  const ScanMatch other = matcher_.match(map_, continued);
+  return other.score > match.score + kClearlyBetter ? other : match;
 }
 
 GaussianPose LocalMapper::predicted_motion(const JoinedScan& joined, bool* is_believed) const {
@@ -140,6 +153,10 @@ GaussianPose LocalMapper::predicted_motion(const JoinedScan& joined, bool* is_be
       return {step, seen_from(along_step, -0.5 * step.theta())};
     }
   }
+  return continued_motion(dt_s);
+}
+
+GaussianPose LocalMapper::continued_motion(double dt_s) const {
   const double span_s = std::clamp(dt_s, 0.0, kLeastTimeStep_s);
   const double unsure_s = std::max(0.2, span_s);
   return {Pose2(speed_m_per_s_ * span_s, 0.0, turn_rate_rad_per_s_ * span_s),

@@ -73,6 +73,8 @@ class LocalMapper {
 
  private:
   [[nodiscard]] GaussianPose predicted_motion(const JoinedScan& joined, bool* is_believed) const;
+  [[nodiscard]] GaussianPose continued_motion(double dt_s) const;
+  [[nodiscard]] ScanMatch best_match(const GaussianPose& predicted, double dt_s);
   void settle(const ScanMatch& match, const GaussianPose& predicted, LocalFix* fix);
   void draw(const LaserScan& scan, FixNote note);
   void advance(const JoinedScan& joined, const LocalFix& fix);

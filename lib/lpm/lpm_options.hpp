@@ -46,7 +46,7 @@ struct LpmOptions {
   ScanMatchOptions match;
   double insert_every_m = 0.1;      ///< The map takes a scan after this travel, [0, 5]
   double insert_every_rad = 0.1;    ///< or after this turn. [0, 3.2]
-  double renewal_travel_m = 5.0;    ///< Travel after which the map is another one: per renewal the
+  double renewal_travel_m = 8.0;    ///< Travel after which the map is another one: per renewal the
                                     ///< error of one match adds to dead reckoning. > 0
   int refusals_before_restart = 5;  ///< So many in a row: the map starts afresh. [1, 1000]
 };

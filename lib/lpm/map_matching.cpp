@@ -185,12 +185,17 @@ MapMatch match_maps(const OccupancyGrid& reference,
   const DistanceField walls = walls_of(reference);
 
   CorrelativeSearch search;
-  search.prepare(walls, kSearchSigmaInSigmas * options.hit_sigma_m);
   SearchWindow window;
   window.center = T_reference_other_guess * T_other_center;
   window.range_m = options.search_range_m;
   window.turn_rad = options.search_turn_rad;
   window.independent_share = kIndependentShare;
+  const double whole_m =
+      reference.geometry().cell_m * (reference.geometry().width + reference.geometry().height);
+  search.prepare(walls, kSearchSigmaInSigmas * options.hit_sigma_m,
+                 reference.geometry().center_of(
+                     {reference.geometry().width / 2, reference.geometry().height / 2}),
+                 whole_m);
   const SearchResult found = search.find(p_center, window);
   const GaussianPose prior{window.center, diagonal(kBlindSigma_m, kBlindSigma_rad)};
   const Refinement fit =

@@ -24,6 +24,8 @@ constexpr double kEdge = 3.0;            // ratio of distances to neighbours acr
 
 void ScanMatcher::take(const LaserScan& scan) {
   returns_.clear();
+  is_prepared_ = false;
+  farthest_m_ = 0.0;
   const double far_m = std::min(options_.max_match_range_m, scan.max_range_m);
   const double spacing2_m2 = options_.point_spacing_m * options_.point_spacing_m;
   Vector2d last = Vector2d::Constant(1e9);
@@ -38,6 +40,7 @@ void ScanMatcher::take(const LaserScan& scan) {
     if ((p - last).squaredNorm() >= spacing2_m2) {
       returns_.push_back({p, Vector2d::Zero()});
       last = p;
+      farthest_m_ = std::max(farthest_m_, p.norm());
     }
   }
   find_normals();
@@ -114,6 +117,17 @@ ScanMatch ScanMatcher::refined(const ScrollingMap& map,
   return match;
 }
 
+void ScanMatcher::prepare_search(const ScrollingMap& map, const Pose2& around) {
+  // Room for the search window, and for the next search of the same scan from somewhere nearby.
+  const double reach_m = farthest_m_ + 2.0 * options_.search_range_m;
+  const Vector2d off_m = around.translation() - prepared_at_m_;
+  if (!is_prepared_ || off_m.cwiseAbs().maxCoeff() > options_.search_range_m) {
+    search_.prepare(map.walls(), kSearchSigma_m, around.translation(), reach_m);
+    prepared_at_m_ = around.translation();
+    is_prepared_ = true;
+  }
+}
+
 ScanMatch ScanMatcher::searched(const ScrollingMap& map, const GaussianPose& predicted) {
   SearchWindow window;
   window.center = predicted.mean;
@@ -122,7 +136,7 @@ ScanMatch ScanMatcher::searched(const ScrollingMap& map, const GaussianPose& pre
   window.range_m = std::min(options_.search_range_m, kWindowInSigmas * window.sigma_m);
   window.turn_rad = std::min(options_.search_turn_rad, kWindowInSigmas * window.sigma_rad);
   window.independent_share = options_.independent_share;
-  search_.prepare(map.walls(), kSearchSigma_m);
+  prepare_search(map, predicted.mean);
   ScanMatch match = refined(map, predicted, search_.find(few_returns_, window).pose);
   match.was_searched = true;
   return match;

@@ -25,7 +25,8 @@ class ScanMatcher {
  public:
   explicit ScanMatcher(const ScanMatchOptions& options) : options_(options) {}
 
-  /// Takes the returns of a scan, in the robot frame, thinned to the point spacing.
+  /// Takes the returns of a scan, in the robot frame, thinned to the point spacing. The map must
+  /// not change until all matches of this scan are done.
   void take(const LaserScan& scan);
   [[nodiscard]] bool is_blocked() const;
 
@@ -39,12 +40,16 @@ class ScanMatcher {
   [[nodiscard]] ScanMatch refined(const ScrollingMap& map,
                                   const GaussianPose& predicted,
                                   const Pose2& start) const;
+  void prepare_search(const ScrollingMap& map, const Pose2& around);
   [[nodiscard]] ScanMatch searched(const ScrollingMap& map, const GaussianPose& predicted);
 
   ScanMatchOptions options_;
   std::vector<SurfacePoint> returns_;      // robot frame
   std::vector<SurfacePoint> few_returns_;  // for the search
+  double farthest_m_ = 0.0;
   CorrelativeSearch search_;
+  bool is_prepared_ = false;  // for the scan taken last, around
+  Vector2d prepared_at_m_ = Vector2d::Zero();
 };
 
 }  // namespace cairn

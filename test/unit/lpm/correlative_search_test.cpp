@@ -51,7 +51,7 @@ TEST(CorrelativeSearch, FindsTheBestPoseOfItsWindow) {
     window.range_m = 1.0;
     window.turn_rad = 0.2;
     CorrelativeSearch search;
-    search.prepare(walls, kSigma_m);
+    search.prepare(walls, kSigma_m, window.center.translation(), 10.0);
     const SearchResult found = search.find(points, window);
 
     double best = 0.0;
@@ -78,9 +78,9 @@ TEST(CorrelativeSearch, StaysAtTheCenterWhereThereAreNoWalls) {
   geometry.width = 64;
   geometry.height = 64;
   CorrelativeSearch search;
-  search.prepare(DistanceField(geometry), kSigma_m);
   SearchWindow window;
   window.center = Pose2(1.0, 1.0, 0.5);
+  search.prepare(DistanceField(geometry), kSigma_m, window.center.translation(), 1.0);
   const SearchResult found = search.find({{Vector2d(0.5, 0.0)}, {Vector2d(0.0, 0.5)}}, window);
   EXPECT_EQ(found.pose, window.center);
   EXPECT_EQ(found.score, 0.0);
