@@ -15,11 +15,11 @@ namespace cairn::wire {
 
 template <>
 inline constexpr std::string_view kSignatureText<cairn_journal::scan_record_t> =
-    "q d[=3] d[=9] d[=3] d[=9] i i i d d[=3] d d i f[12] i f[14]";
+    "q d[=3] d[=9] d[=3] d[=9] i i i d d[=3] d d i f[12] i f[14] i q[16] d[16][=3]";
 template <>
 inline constexpr std::string_view kSignatureText<cairn_journal::visit_record_t> =
     "q q q d[=3] i i d[=3] d[=3] d[=2] i d d i {d[=4] d[=2] d d d}[12] i {i i i}[14] i {i i i}[16] "
-    "{d d[=2] i i i h[5]}";
+    "{d d[=2] i i i h[4]}";
 
 }  // namespace cairn::wire
 
@@ -210,6 +210,12 @@ std::vector<std::uint8_t> to_row(const PerceivedScan& perceived) {
   record.num_bearings = static_cast<int>(record.bearings_rad.size());
   record.ranges_m = scan.ranges_m;
   record.num_ranges = static_cast<int>(record.ranges_m.size());
+  for (const OdometrySample& between : perceived.between) {
+    record.between_utime.push_back(utime_of(between.time));
+    const Pose2& pose = between.T_odom_robot;
+    record.T_previous_between_m_rad.push_back({pose.x(), pose.y(), pose.theta()});
+  }
+  record.num_between = static_cast<int>(record.between_utime.size());
   return wire::to_document(record);
 }
 
@@ -242,7 +248,17 @@ Result<PerceivedScan> scan_of_row(const std::vector<std::uint8_t>& row) {
     return malformed("a pose or a note out of range");
   }
   fix.note = static_cast<FixNote>(record->note);
-  return PerceivedScan{std::move(scan), fix};
+  PerceivedScan perceived{std::move(scan), fix, {}};
+  for (std::size_t i = 0; i < record->between_utime.size(); ++i) {
+    const std::vector<double>& pose = record->T_previous_between_m_rad[i];
+    const OdometrySample between{time_of_utime(record->between_utime[i]),
+                                 Pose2(pose[0], pose[1], pose[2])};
+    if (const Status status = validate(between); !status) {
+      return malformed(status.error().message);
+    }
+    perceived.between.push_back(between);
+  }
+  return perceived;
 }
 
 std::vector<std::uint8_t> to_row(const Visit& visit) {

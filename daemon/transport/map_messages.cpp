@@ -126,8 +126,8 @@ cairn_lcm::trajectory_t to_trajectory(const MapState& state, const Sender& sende
   message.utime = utime_of(state.time);
   message.map_id = sender.map_id;
   message.revision = state.topology_revision;
-  for (const PosedScan& posed : state.trajectory) {
-    message.pose_utime.push_back(utime_of(posed.scan->time));
+  for (const TimedPose& posed : state.poses) {
+    message.pose_utime.push_back(utime_of(posed.time));
     message.x_m.push_back(posed.T_global_robot.x());
     message.y_m.push_back(posed.T_global_robot.y());
     message.theta_rad.push_back(posed.T_global_robot.theta());

@@ -100,6 +100,28 @@ Result<MetricalMap> metrical_map(const TopologicalMap& map, const Experience& ex
   return metrical;
 }
 
+std::vector<TimedPose> with_poses_between(const std::vector<PerceivedScan>& scans,
+                                            const std::vector<PosedScan>& trajectory) {
+  CAIRN_CHECK(scans.size() == trajectory.size());
+  std::vector<TimedPose> poses;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const std::vector<OdometrySample>& between = scans[i].between;
+    if (i > 0 && !between.empty()) {
+      std::vector<Pose2> T_previous_robot{Pose2()};
+      for (const OdometrySample& sample : between) {
+        T_previous_robot.push_back(sample.T_odom_robot);
+      }
+      const std::vector<Pose2> bent = interpolate_travel(
+          T_previous_robot, trajectory[i - 1].T_global_robot, trajectory[i].T_global_robot);
+      for (std::size_t k = 0; k + 1 < between.size(); ++k) {
+        poses.push_back({between[k].time, bent[k + 1]});
+      }
+    }
+    poses.push_back({scans[i].fix.time, trajectory[i].T_global_robot});
+  }
+  return poses;
+}
+
 std::vector<MappedPlace> mapped_places(const TopologicalMap& map, const Experience& experience,
                                        const PlaceLayout& layout) {
   const std::vector<Path> paths = trace_paths(map);

@@ -28,6 +28,12 @@ struct MetricalMap {
                                                const VisitMatcher& matcher,
                                                const LayoutOptions& options);
 
+/// The poses of all scans and, interpolated between each two along the odometry, of all odometry
+/// samples.
+/// @pre as many trajectory poses as scans
+[[nodiscard]] std::vector<TimedPose> with_poses_between(
+    const std::vector<PerceivedScan>& scans, const std::vector<PosedScan>& trajectory);
+
 /// Places with gateways and stars, as they are published.
 [[nodiscard]] std::vector<MappedPlace> mapped_places(const TopologicalMap& map,
                                                      const Experience& experience,

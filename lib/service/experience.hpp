@@ -9,6 +9,7 @@
 #include "lpm/local_mapper.hpp"
 #include "place/place_detector.hpp"
 #include "sensing/laser_scan.hpp"
+#include "sensing/odometry.hpp"
 
 namespace cairn {
 
@@ -16,6 +17,10 @@ namespace cairn {
 struct PerceivedScan {
   std::shared_ptr<const LaserScan> scan;
   LocalFix fix;
+  /// Odometry since the scan before, in the order of arrival, as poses in the frame of the robot at
+  /// that scan; the last one is of this scan itself. Poses between scans are interpolated along them.
+  /// Empty where one of the two scans has no odometry.
+  std::vector<OdometrySample> between;
 };
 
 /// A visit, and the scan at which the robot was closest to the origin of the place: the end of one

@@ -15,6 +15,12 @@
 
 namespace cairn {
 
+/// Where the robot was, in the global frame.
+struct TimedPose {
+  TimePoint time;
+  Pose2 T_global_robot;
+};
+
 /// A gateway of a place of the best map, in the place frame.
 struct MappedGateway {
   Gateway perceived;
@@ -77,6 +83,8 @@ struct MapState {
   std::int64_t guarantee_given_up_at = -1;    ///< Visit number; -1: every consistent map is alive.
   std::string guarantee_reason;
   std::vector<PosedScan> trajectory;          ///< Every scan so far: H(x).
+  /// Every scan and every odometry sample between scans, in the order of arrival.
+  std::vector<TimedPose> poses;
   Pose2 T_global_lpm;                         ///< Where the frame of the local map lies now.
 };
 

@@ -8,6 +8,7 @@
 #include "base/check.hpp"
 #include "lpm/local_mapper.hpp"
 #include "place/place_detector.hpp"
+#include "service/between_scans.hpp"
 #include "service/best_map.hpp"
 #include "service/visit_matcher.hpp"
 
@@ -44,7 +45,10 @@ class MappingService::Pipeline {
         matcher_(experience_, options.recognition),
         tree_(options.topology, evidence()) {}
 
-  void join(const OdometrySample& sample) { joiner_.add(sample); }
+  void join(const OdometrySample& sample) {
+    joiner_.add(sample);
+    between_scans_.add(sample);
+  }
   void join(LaserScan scan) { joiner_.add(std::move(scan)); }
   void flush() { joiner_.flush(); }
 
@@ -56,7 +60,10 @@ class MappingService::Pipeline {
     while (std::optional<JoinedScan> joined = joiner_.next()) {
       enter(Stage::kLocalMapping);
       const LocalFix fix = local_mapper_.absorb(*joined);
-      PerceivedScan perceived{std::make_shared<const LaserScan>(std::move(joined->scan)), fix};
+      std::vector<OdometrySample> between =
+          between_scans_.take(joined->scan.time, joined->T_odom_robot);
+      PerceivedScan perceived{std::make_shared<const LaserScan>(std::move(joined->scan)), fix,
+                              std::move(between)};
       since_anchor_ = compounded(since_anchor_, fix.motion);
       experience_.add(perceived);
       updates.scans.push_back(std::move(perceived));
@@ -209,6 +216,7 @@ class MappingService::Pipeline {
   ServiceOptions options_;
   StageObserver observer_;
   ScanJoiner joiner_;
+  BetweenScans between_scans_;
   LocalMapper local_mapper_;
   PlaceDetector place_detector_;
   Experience experience_;
@@ -261,6 +269,7 @@ std::shared_ptr<const MapState> MappingService::Pipeline::state() const {
                                      ? metrical_.trajectory[i]
                                      : metrical_.T_global_lpm * scans[i].fix.T_lpm_robot});
   }
+  state->poses = with_poses_between(scans, state->trajectory);
   if (!scans.empty()) {
     state->time = scans.back().fix.time;
   }
