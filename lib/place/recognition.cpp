@@ -23,8 +23,7 @@ double mean_turn(const std::vector<Gateway>& known, const std::vector<Gateway>& 
 
 /// The gateways' lines laid on each other: their middles, and a point a little outward of each, so
 /// that the directions count too.
-Pose2 aligned_by_gateways(const std::vector<Gateway>& known, const std::vector<Gateway>& visit,
-                          int shift) {
+Pose2 laid_on(const std::vector<Gateway>& known, const std::vector<Gateway>& visit, int shift) {
   static constexpr double kOutward_m = 2.0;
   const auto outward = [](const Gateway& gateway) -> Vector2d {
     return gateway.middle + kOutward_m * Vector2d(std::cos(gateway.outward_bearing_rad),
@@ -69,12 +68,16 @@ Pose2 aligned(const std::vector<Vector2d>& points_a, const std::vector<Vector2d>
   return {Vector2d(mean_a - rotated), theta};
 }
 
-Recognition recognize(const PlaceVisit& known, const PlaceVisit& visit, int shift,
-                      const MapMatchOptions& options) {
+Pose2 aligned_by_gateways(const PlaceVisit& known, const PlaceVisit& visit, int shift) {
   const std::vector<Gateway>& known_gateways = known.neighbourhood.gateways;
   const std::vector<Gateway>& visit_gateways = visit.neighbourhood.gateways;
   CAIRN_CHECK(!known_gateways.empty() && known_gateways.size() == visit_gateways.size());
-  const Pose2 T_known_visit = aligned_by_gateways(known_gateways, visit_gateways, shift);
+  return laid_on(known_gateways, visit_gateways, shift);
+}
+
+Recognition recognize(const PlaceVisit& known, const PlaceVisit& visit, int shift,
+                      const MapMatchOptions& options) {
+  const Pose2 T_known_visit = aligned_by_gateways(known, visit, shift);
   const MapMatch match = match_maps(known.lpm, visit.lpm, T_known_visit, options);
   return {match.T_reference_other, match.log_likelihood_ratio};
 }

@@ -23,6 +23,11 @@ struct Recognition {
 [[nodiscard]] Recognition recognize(const PlaceVisit& known, const PlaceVisit& visit, int shift,
                                     const MapMatchOptions& options);
 
+/// T_known_visit by the gateways alone, laid on each other under that alignment.
+/// @pre as of `recognize`
+[[nodiscard]] Pose2 aligned_by_gateways(const PlaceVisit& known, const PlaceVisit& visit,
+                                        int shift);
+
 /// The rigid transform T_a_b that takes points b closest to points a, in the sense of least squares.
 /// With one pair, or coinciding points, only the position is determined: `fallback_theta_rad` it is.
 /// @pre as many points b as a, at least one

@@ -124,7 +124,7 @@ class MappingService::Pipeline {
     Evidence evidence;
     evidence.same_place = [this](const TopologicalMap& before, VisitId visit, PlaceId same_as,
                                  int shift) {
-      return matcher_.compare(before.first_visit(same_as), visit, shift).log_likelihood_ratio;
+      return matcher_.log_likelihood_ratio(before.first_visit(same_as), visit, shift);
     };
     // The densities' normalisation is left out: it is the same for all maps of one experience.
     evidence.layout = [this](const TopologicalMap& map) {

@@ -1,5 +1,7 @@
 #include "service/visit_matcher.hpp"
 
+#include <limits>
+
 namespace cairn {
 
 const Recognition& VisitMatcher::compare(VisitId known, VisitId visit, int shift) const {
@@ -13,6 +15,40 @@ const Recognition& VisitMatcher::compare(VisitId known, VisitId visit, int shift
       .emplace(key, recognize(visits[known.index()].perceived, visits[visit.index()].perceived,
                               shift, options_))
       .first->second;
+}
+
+const GaussianPose& VisitMatcher::dead_reckoned(VisitId known, VisitId visit) const {
+  const auto key = std::make_pair(known, visit);
+  const auto found = dead_reckoned_.find(key);
+  if (found != dead_reckoned_.end()) {
+    return found->second;
+  }
+  GaussianPose T_known_visit;
+  for (std::size_t i = known.index(); i < visit.index(); ++i) {
+    T_known_visit = compounded(T_known_visit, experience_.travels()[i].T_from_to);
+  }
+  return dead_reckoned_.emplace(key, T_known_visit).first->second;
+}
+
+double VisitMatcher::log_likelihood_ratio(VisitId known, VisitId visit, int shift) const {
+  const GaussianPose& predicted = dead_reckoned(known, visit);
+  const std::vector<Visit>& visits = experience_.visits();
+  const Pose2 T_known_visit =
+      aligned_by_gateways(visits[known.index()].perceived, visits[visit.index()].perceived, shift);
+  // Gateways alone give the pose to about half a metre; that is enough to see what is out of reach.
+  const Matrix3d slack = Eigen::Vector3d(0.25, 0.25, 0.04).asDiagonal();
+  if (squared_mahalanobis(T_known_visit, predicted.mean, predicted.covariance + slack) >
+      kRefutedAt_sigmas * kRefutedAt_sigmas) {
+    return -std::numeric_limits<double>::infinity();
+  }
+  const Recognition& recognition = compare(known, visit, shift);
+  const double chi2 =
+      squared_mahalanobis(recognition.T_known_visit.mean, predicted.mean,
+                          predicted.covariance + recognition.T_known_visit.covariance);
+  if (chi2 > kRefutedAt_sigmas * kRefutedAt_sigmas) {
+    return -std::numeric_limits<double>::infinity();
+  }
+  return recognition.log_likelihood_ratio;
 }
 
 GaussianPose VisitMatcher::T_place_visit(const TopologicalMap& map, VisitId visit) const {

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "layout/place_layout.hpp"
@@ -23,16 +24,29 @@ class VisitMatcher {
   /// @pre both visits have the same number of gateways, and are in the experience
   [[nodiscard]] const Recognition& compare(VisitId known, VisitId visit, int shift) const;
 
+  /// Natural log of how much better "the visit was to the known one's place" explains the local maps
+  /// and the dead reckoning between the two visits than "it was elsewhere". Minus infinity where dead
+  /// reckoning would have to be wrong by more than kRefutedAt_sigmas: then the maps are not compared.
+  [[nodiscard]] double log_likelihood_ratio(VisitId known, VisitId visit, int shift) const;
+
   /// The place frame of a visit in the frame of the place it was to: that of the place's first visit.
   [[nodiscard]] GaussianPose T_place_visit(const TopologicalMap& map, VisitId visit) const;
 
   /// F(lambda) of every travel, between the places that the map says they joined.
   [[nodiscard]] std::vector<TravelConstraint> constraints(const TopologicalMap& map) const;
 
+  /// Dead reckoning is given this many standard deviations before it refutes. Generous: slip and
+  /// pushes make it wrong by more than its covariance says.
+  static constexpr double kRefutedAt_sigmas = 20.0;
+
  private:
+  [[nodiscard]] const GaussianPose& dead_reckoned(VisitId known, VisitId visit) const;
+
   const Experience& experience_;
   MapMatchOptions options_;
-  mutable std::map<std::tuple<VisitId, VisitId, int>, Recognition> compared_;  ///< A memo.
+  // Memos.
+  mutable std::map<std::tuple<VisitId, VisitId, int>, Recognition> compared_;
+  mutable std::map<std::pair<VisitId, VisitId>, GaussianPose> dead_reckoned_;
 };
 
 }  // namespace cairn
