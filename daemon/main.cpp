@@ -33,7 +33,8 @@ struct Arguments {
 };
 
 void declare(CLI::App* app, Arguments* arguments) {
-  app->add_option("--config", arguments->config_file, "configuration file (JSON); all defaults are built in");
+  app->add_option("--config", arguments->config_file,
+                  "configuration file (JSON); all defaults are built in");
   app->add_option("--lcm-url", arguments->lcm_url, "LCM url of the bus");
   app->add_option("--map", arguments->map_file, "map file; created where there is none");
   app->add_option("--replay", arguments->replay_logs,
@@ -67,9 +68,8 @@ Result<DaemonOptions> read_options_file(const std::string& name) {
 }
 
 Result<DaemonOptions> options_of(const Arguments& arguments) {
-  Result<DaemonOptions> options = arguments.config_file.empty()
-                                      ? read_options("{}")
-                                      : read_options_file(arguments.config_file);
+  Result<DaemonOptions> options =
+      arguments.config_file.empty() ? read_options("{}") : read_options_file(arguments.config_file);
   if (!options) {
     return Error{options.error().code,
                  (arguments.config_file.empty() ? "defaults" : arguments.config_file) + ": " +

@@ -75,7 +75,9 @@ class Latency {
 /// The event loop: bus, signals, the two workers, the status. Everything here runs on one thread.
 class Daemon {
  public:
-  Daemon(const DaemonOptions& options, StopSignal& stop, wire::Bus& bus,
+  Daemon(const DaemonOptions& options,
+         StopSignal& stop,
+         wire::Bus& bus,
          std::unique_ptr<Engine> engine)
       : options_(options),
         stop_(stop),
@@ -85,17 +87,16 @@ class Daemon {
                   options.service.global_map.tile_cells},
                  wakeup_),
         solver_(options.service.global_map, options.service.path, wakeup_),
-        publisher_(bus, new_boot_id(),
-                   [this](const cairn_lcm::plan_request_t& request) {
-                     return order_plan(request);
-                   }),
+        publisher_(
+            bus,
+            new_boot_id(),
+            [this](const cairn_lcm::plan_request_t& request) { return order_plan(request); }),
         inlets_(to_inlet_options(options),
                 {[this](LaserScan scan) { take(std::move(scan)); },
                  [this](OdometrySample sample) { take(sample); }, [](const SonarRing&) {}}) {}
 
   [[nodiscard]] bool subscribe() {
-    const Status inputs =
-        inlets_.subscribe(bus_, [] { return time_of_utime(wall_utime()); });
+    const Status inputs = inlets_.subscribe(bus_, [] { return time_of_utime(wall_utime()); });
     if (!inputs) {
       spdlog::error("{}", inputs.error().message);
     }
@@ -148,9 +149,8 @@ class Daemon {
   }
 
   void wait() {
-    std::array<pollfd, 3> fds = {{{bus_.fileno(), POLLIN, 0},
-                                  {stop_.fd(), POLLIN, 0},
-                                  {wakeup_.fd(), POLLIN, 0}}};
+    std::array<pollfd, 3> fds = {
+        {{bus_.fileno(), POLLIN, 0}, {stop_.fd(), POLLIN, 0}, {wakeup_.fd(), POLLIN, 0}}};
     const int timeout_ms = publisher_.has_work() ? 2 : 100;
     static_cast<void>(poll(fds.data(), fds.size(), timeout_ms));
     wakeup_.clear();
@@ -212,8 +212,8 @@ class Daemon {
       last_documents_us_ = now;
     }
     is_drawing_ = true;
-    solver_.order(DrawOrder{std::exchange(newest_, nullptr), {0, publisher_.sender().map_id},
-                            with_documents});
+    solver_.order(DrawOrder{
+        std::exchange(newest_, nullptr), {0, publisher_.sender().map_id}, with_documents});
   }
 
   bool order_plan(const cairn_lcm::plan_request_t& request) {
@@ -401,10 +401,8 @@ ExitCode test_bus(const DaemonOptions& options) {
     return ExitCode::kNoService;
   }
   bool has_arrived = false;
-  const bool is_subscribed =
-      (*bus)->subscribe("CAIRN_SELF_TEST", 4, [&has_arrived](const wire::Received&) {
-        has_arrived = true;
-      });
+  const bool is_subscribed = (*bus)->subscribe(
+      "CAIRN_SELF_TEST", 4, [&has_arrived](const wire::Received&) { has_arrived = true; });
   const std::int64_t until = steady_us() + 2'000'000;
   while (is_subscribed && !has_arrived && steady_us() < until) {
     (*bus)->publish("CAIRN_SELF_TEST", wire::Bytes(8, 0));

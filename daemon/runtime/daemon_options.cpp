@@ -20,8 +20,9 @@ OptionObject describe(LaserOptions* laser) {
 }
 
 OptionObject describe_inlets(DaemonOptions* options) {
-  OptionObject object("inlets", "What the daemon listens to. The type of a message is told by its "
-                                "fingerprint, not by its channel.");
+  OptionObject object("inlets",
+                      "What the daemon listens to. The type of a message is told by its "
+                      "fingerprint, not by its channel.");
   object.list(
       "lasers", [options] { return options->lasers.size(); },
       [options](std::size_t size) { options->lasers.resize(size); },
@@ -54,17 +55,16 @@ DaemonOptions::DaemonOptions() {
 }
 
 OptionObject describe(DaemonOptions* options) {
-  OptionObject object("cairnd", "Configuration of cairnd. Every option has a default; an unknown one "
-                                "is an error.");
+  OptionObject object("cairnd",
+                      "Configuration of cairnd. Every option has a default; an unknown one "
+                      "is an error.");
   OptionObject bus("bus", "The LCM bus.");
   bus.text("lcm_url", &options->lcm_url,
            "LCM url; empty: LCM_DEFAULT_URL of the environment, else the loopback's multicast "
            "group. --lcm-url overrides it.");
   bus.integer("queued_readings", &options->queued_readings, {10, 1e6},
               "Readings that may wait for the mapping thread; the oldest make room, counted.");
-  object.object(std::move(bus))
-      .object(describe_inlets(options))
-      .object(describe_storage(options));
+  object.object(std::move(bus)).object(describe_inlets(options)).object(describe_storage(options));
   for (OptionObject& stage : describe(&options->service)) {
     object.object(std::move(stage));
   }

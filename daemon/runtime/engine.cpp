@@ -31,9 +31,9 @@ Result<std::unique_ptr<Engine>> Engine::open(const ServiceOptions& options,
 }
 
 Status Engine::recall() {
-  Status status = map_file_.read_journal(
-      [this](PerceivedScan scan) { service_->recall(std::move(scan)); },
-      [this](Visit visit) { return service_->recall(std::move(visit)); });
+  Status status =
+      map_file_.read_journal([this](PerceivedScan scan) { service_->recall(std::move(scan)); },
+                             [this](Visit visit) { return service_->recall(std::move(visit)); });
   if (status) {
     service_->resume();
   }
@@ -64,7 +64,9 @@ void Engine::journal(const Updates& updates) {
   write_waiting(!updates.visits.empty());
 }
 
-void Engine::commit() { write_waiting(true); }
+void Engine::commit() {
+  write_waiting(true);
+}
 
 void Engine::write_waiting(bool commit) {
   const auto start = std::chrono::steady_clock::now();

@@ -10,8 +10,8 @@ namespace {
 using Kind = cairn_lcm::place_event_t;
 
 constexpr std::array<const char*, 8> kNames = {
-    "ENTERED",     "LEFT",           "GATEWAY_CONFIRMED", "GATEWAY_RETRACTED",
-    "LOOP_CLOSED", "CLOSURE_UNDONE", "LOST",              "LOCALIZED"};
+    "ENTERED",        "LEFT", "GATEWAY_CONFIRMED", "GATEWAY_RETRACTED", "LOOP_CLOSED",
+    "CLOSURE_UNDONE", "LOST", "LOCALIZED"};
 
 std::string at_text(const Vector2d& p_lpm) {
   std::array<char, 64> text{};
@@ -22,8 +22,11 @@ std::string at_text(const Vector2d& p_lpm) {
 
 }  // namespace
 
-cairn_lcm::place_event_t EventBook::add(std::int32_t kind, TimePoint time, std::int64_t visit,
-                                        std::int64_t place, const std::string& reason) {
+cairn_lcm::place_event_t EventBook::add(std::int32_t kind,
+                                        TimePoint time,
+                                        std::int64_t visit,
+                                        std::int64_t place,
+                                        const std::string& reason) {
   cairn_lcm::place_event_t event{};
   event.utime = utime_of(time);
   event.boot_id = boot_id_;
@@ -79,9 +82,9 @@ std::vector<cairn_lcm::place_event_t> EventBook::note(const MapState& before,
       events.push_back(add(Kind::CLOSURE_UNDONE, after.time, static_cast<std::int64_t>(visit),
                            after.place_of_visit[visit],
                            "hypothesis " + std::to_string(after.hypothesis) +
-                               " explains more: visit " + std::to_string(visit) +
-                               " was to place " + std::to_string(after.place_of_visit[visit]) +
-                               ", not " + std::to_string(before.place_of_visit[visit])));
+                               " explains more: visit " + std::to_string(visit) + " was to place " +
+                               std::to_string(after.place_of_visit[visit]) + ", not " +
+                               std::to_string(before.place_of_visit[visit])));
       break;  // All that follows from it is one change of belief.
     }
   }
@@ -99,10 +102,9 @@ std::vector<cairn_lcm::place_event_t> EventBook::note(const MapState& before,
 
 std::vector<cairn_lcm::place_event_t> EventBook::after(std::int64_t number) const {
   std::vector<cairn_lcm::place_event_t> events;
-  std::copy_if(kept_.begin(), kept_.end(), std::back_inserter(events),
-               [number](const cairn_lcm::place_event_t& event) {
-                 return event.event_number > number;
-               });
+  std::copy_if(
+      kept_.begin(), kept_.end(), std::back_inserter(events),
+      [number](const cairn_lcm::place_event_t& event) { return event.event_number > number; });
   return events;
 }
 

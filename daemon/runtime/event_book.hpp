@@ -32,8 +32,11 @@ class EventBook {
   [[nodiscard]] std::vector<cairn_lcm::place_event_t> after(std::int64_t number) const;
 
  private:
-  cairn_lcm::place_event_t add(std::int32_t kind, TimePoint time, std::int64_t visit,
-                               std::int64_t place, const std::string& reason);
+  cairn_lcm::place_event_t add(std::int32_t kind,
+                               TimePoint time,
+                               std::int64_t visit,
+                               std::int64_t place,
+                               const std::string& reason);
 
   std::int64_t boot_id_;
   std::int64_t newest_ = 0;

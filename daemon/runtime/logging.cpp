@@ -13,7 +13,8 @@ namespace {
 /// The journal reads "<4>" as priority warning.
 class PriorityFlag : public spdlog::custom_flag_formatter {
  public:
-  void format(const spdlog::details::log_msg& message, const std::tm& /*time*/,
+  void format(const spdlog::details::log_msg& message,
+              const std::tm& /*time*/,
               spdlog::memory_buf_t& text) override {
     const char priority = message.level >= spdlog::level::err    ? '3'
                           : message.level == spdlog::level::warn ? '4'
@@ -31,8 +32,8 @@ class PriorityFlag : public spdlog::custom_flag_formatter {
 }  // namespace
 
 void start_logging(bool verbose) {
-  auto logger = std::make_shared<spdlog::logger>(
-      "cairnd", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+  auto logger =
+      std::make_shared<spdlog::logger>("cairnd", std::make_shared<spdlog::sinks::stderr_sink_mt>());
   auto formatter = std::make_unique<spdlog::pattern_formatter>();
   // NOLINTNEXTLINE(concurrency-mt-unsafe): before any other thread.
   if (std::getenv("JOURNAL_STREAM") != nullptr) {

@@ -18,8 +18,8 @@ struct Documents {
   std::map<int, std::vector<std::uint8_t>> bytes;
 };
 
-/// Draws the global map from immutable pictures of the map, and makes the documents that clients and
-/// the map file get. One owner: the solver thread, or a replay.
+/// Draws the global map from immutable pictures of the map, and makes the documents that clients
+/// and the map file get. One owner: the solver thread, or a replay.
 class MapMaker {
  public:
   explicit MapMaker(const GlobalMapOptions& options);

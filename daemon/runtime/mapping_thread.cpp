@@ -14,7 +14,8 @@ bool is_due(Clock::time_point last, double every_s) {
 
 }  // namespace
 
-MappingThread::MappingThread(std::unique_ptr<Engine> engine, const Options& options,
+MappingThread::MappingThread(std::unique_ptr<Engine> engine,
+                             const Options& options,
                              const Wakeup& wakeup)
     : engine_(std::move(engine)),
       options_(options),

@@ -26,7 +26,7 @@ struct MappingReport {
   std::vector<MappedFix> fixes;
   std::vector<PlaceEvent> events;
   std::vector<ExtendReport> extensions;
-  std::shared_ptr<const MapState> state;              ///< Null where none was made.
+  std::shared_ptr<const MapState> state;                  ///< Null where none was made.
   std::shared_ptr<const wire::ReplicatedGrid> local_map;  ///< Comes with a state.
   std::int64_t map_id = 0;
   JoinerCounters joiner;

@@ -71,9 +71,8 @@ End end_at(const MapState& state, const Vector2d& p_global) {
 Error no_such_place(std::int64_t place, const MapState& state) {
   return {ErrorCode::kNotFound,
           "there is no place " + std::to_string(place) + "; the map has " +
-              (state.places.empty()
-                   ? "none yet"
-                   : "places 0 to " + std::to_string(state.places.size() - 1))};
+              (state.places.empty() ? "none yet"
+                                    : "places 0 to " + std::to_string(state.places.size() - 1))};
 }
 
 bool has_place(const MapState& state, std::int64_t place) {
@@ -96,9 +95,8 @@ Result<End> start_of(const cairn_lcm::plan_request_t& request, const MapState& s
 Result<End> goal_of(const cairn_lcm::plan_request_t& request, const MapState& state) {
   if (!request.goal_name.empty()) {
     const auto named =
-        std::find_if(state.places.begin(), state.places.end(), [&](const MappedPlace& place) {
-          return place.name == request.goal_name;
-        });
+        std::find_if(state.places.begin(), state.places.end(),
+                     [&](const MappedPlace& place) { return place.name == request.goal_name; });
     if (named == state.places.end()) {
       return Error{ErrorCode::kNotFound, "no place is called '" + request.goal_name + "'"};
     }
@@ -133,7 +131,9 @@ RouteMap route_map_of(const MapState& state) {
 }
 
 /// Points along the route: where the robot drove when it travelled its segments.
-std::vector<Vector2d> way_along(const Route& route, const MapState& state, const End& start,
+std::vector<Vector2d> way_along(const Route& route,
+                                const MapState& state,
+                                const End& start,
                                 const End& goal) {
   std::vector<Vector2d> way{start.p_global};
   for (const RouteLeg& leg : route.legs) {
@@ -151,7 +151,9 @@ std::vector<Vector2d> way_along(const Route& route, const MapState& state, const
   return way;
 }
 
-Result<Route> route_between(const End& start, const End& goal, const MapState& state,
+Result<Route> route_between(const End& start,
+                            const End& goal,
+                            const MapState& state,
                             std::vector<std::string>* steps) {
   const Result<RoutePlanner> planner = RoutePlanner::of(route_map_of(state));
   if (!planner) {
@@ -164,8 +166,11 @@ Result<Route> route_between(const End& start, const End& goal, const MapState& s
   return route;
 }
 
-Result<MetricPath> path_between(const End& start, const End& goal, std::optional<double> heading_rad,
-                                const std::vector<Vector2d>& way, const GlobalMap& map,
+Result<MetricPath> path_between(const End& start,
+                                const End& goal,
+                                std::optional<double> heading_rad,
+                                const std::vector<Vector2d>& way,
+                                const GlobalMap& map,
                                 PathOptions options) {
   const Result<OccupancyGrid> grid = map.to_grid();
   if (!grid) {
@@ -193,8 +198,10 @@ void put(const MetricPath& path, cairn_lcm::plan_t* plan) {
 
 }  // namespace
 
-cairn_lcm::plan_t refusal(const cairn_lcm::rpc_header_t& request, const Sender& sender,
-                          std::int32_t code, const std::string& reason) {
+cairn_lcm::plan_t refusal(const cairn_lcm::rpc_header_t& request,
+                          const Sender& sender,
+                          std::int32_t code,
+                          const std::string& reason) {
   cairn_lcm::plan_t plan{};
   plan.result.header = request;
   plan.result.header.boot_id = sender.boot_id;
@@ -206,8 +213,11 @@ cairn_lcm::plan_t refusal(const cairn_lcm::rpc_header_t& request, const Sender& 
   return plan;
 }
 
-cairn_lcm::plan_t answer(const cairn_lcm::plan_request_t& request, const MapState& state,
-                         const GlobalMap& map, const PathOptions& options, const Sender& sender) {
+cairn_lcm::plan_t answer(const cairn_lcm::plan_request_t& request,
+                         const MapState& state,
+                         const GlobalMap& map,
+                         const PathOptions& options,
+                         const Sender& sender) {
   const auto refused = [&](const Error& error) {
     return refusal(request.header, sender, code_of(error), error.message);
   };

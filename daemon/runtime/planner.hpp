@@ -11,14 +11,18 @@
 namespace cairn {
 
 /// Answers a plan request from one immutable picture of the map: the shortest route over the
-/// places, refined to a metric path on the global map. What cannot be planned is said in the result.
+/// places, refined to a metric path on the global map. What cannot be planned is said in the
+/// result.
 [[nodiscard]] cairn_lcm::plan_t answer(const cairn_lcm::plan_request_t& request,
-                                       const MapState& state, const GlobalMap& map,
-                                       const PathOptions& options, const Sender& sender);
+                                       const MapState& state,
+                                       const GlobalMap& map,
+                                       const PathOptions& options,
+                                       const Sender& sender);
 
 /// An answer without a plan. `request` gives the header to answer to.
 [[nodiscard]] cairn_lcm::plan_t refusal(const cairn_lcm::rpc_header_t& request,
-                                        const Sender& sender, std::int32_t code,
+                                        const Sender& sender,
+                                        std::int32_t code,
                                         const std::string& reason);
 
 }  // namespace cairn

@@ -21,8 +21,8 @@ void Progress::show(const std::string& what, std::int64_t done, std::int64_t tot
       total > 0 ? std::clamp(static_cast<double>(done) / static_cast<double>(total), 0.0, 1.0) : 0;
   const auto filled = static_cast<std::size_t>(share * kWidth);
   const std::string bar = std::string(filled, '#') + std::string(kWidth - filled, '.');
-  static_cast<void>(std::fprintf(stderr, "\r[%s] %3.0f %%  %s\033[K", bar.c_str(), 100.0 * share,
-                                 what.c_str()));
+  static_cast<void>(
+      std::fprintf(stderr, "\r[%s] %3.0f %%  %s\033[K", bar.c_str(), 100.0 * share, what.c_str()));
   static_cast<void>(std::fflush(stderr));
 }
 

@@ -127,8 +127,7 @@ void Publisher::publish_local_map(const wire::ReplicatedGrid& local_map) {
     // What the window has scrolled away from is not known any more.
     const auto size = static_cast<std::size_t>(local_map.tile_cells) *
                       static_cast<std::size_t>(local_map.tile_cells);
-    const auto unknown =
-        std::make_shared<const wire::Bytes>(size, GlobalMap::kUnknownPercent);
+    const auto unknown = std::make_shared<const wire::Bytes>(size, GlobalMap::kUnknownPercent);
     for (const auto& [index, cells] : held->tiles) {
       if (local_map.tiles.count(index) == 0 && *cells != *unknown) {
         change.tiles[index] = unknown;
@@ -177,7 +176,9 @@ void Publisher::publish(cairn_lcm::status_t status) {
   bus_.publish("CAIRN_STATUS", status);
 }
 
-void Publisher::pump() { replication_.pump(steady_us(), wall_utime()); }
+void Publisher::pump() {
+  replication_.pump(steady_us(), wall_utime());
+}
 
 void Publisher::on_plan(const cairn_lcm::plan_request_t& request) {
   const cairn_lcm::rpc_header_t& header = request.header;
@@ -187,13 +188,14 @@ void Publisher::on_plan(const cairn_lcm::plan_request_t& request) {
   }
   if (!order_plan_(request)) {
     // Not stored: the client is asked to come back.
-    bus_.publish("CAIRN_PLAN",
-                 refusal(header, sender(), Code::BUSY, "too many plans are waiting"));
+    bus_.publish("CAIRN_PLAN", refusal(header, sender(), Code::BUSY, "too many plans are waiting"));
   }
 }
 
-void Publisher::answer(const cairn_lcm::rpc_header_t& request, std::int32_t code,
-                       const std::string& name, const std::string& reason) {
+void Publisher::answer(const cairn_lcm::rpc_header_t& request,
+                       std::int32_t code,
+                       const std::string& name,
+                       const std::string& reason) {
   cairn_lcm::result_t result{};
   result.header = request;
   result.header.utime = wall_utime();

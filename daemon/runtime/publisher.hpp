@@ -59,7 +59,9 @@ class Publisher {
   void on_delta(const cairn_lcm::delta_request_t& request);
   void on_events(const cairn_lcm::event_request_t& request);
   void on_status(const cairn_lcm::status_t& status);
-  void answer(const cairn_lcm::rpc_header_t& request, std::int32_t code, const std::string& name,
+  void answer(const cairn_lcm::rpc_header_t& request,
+              std::int32_t code,
+              const std::string& name,
               const std::string& reason);
   void publish_state(const std::shared_ptr<const MapState>& state);
   void publish_local_map(const wire::ReplicatedGrid& local_map);

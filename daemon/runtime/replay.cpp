@@ -25,8 +25,8 @@ double seconds_since(Clock::time_point start) {
 struct Tally {
   std::int64_t scans = 0;
   std::int64_t matched = 0;
-  std::map<std::string, std::int64_t> notes;     ///< How the fixes came about.
-  std::map<std::string, std::int64_t> skipped;   ///< Lines and channels that carry nothing for us.
+  std::map<std::string, std::int64_t> notes;    ///< How the fixes came about.
+  std::map<std::string, std::int64_t> skipped;  ///< Lines and channels that carry nothing for us.
   std::int64_t first_utime = 0;
   std::int64_t last_utime = 0;
   std::vector<std::string> troubles;
@@ -185,12 +185,11 @@ void print_text(const Json& summary) {
   line("places", number("places") + " on " + number("paths") + " paths, " + number("closures") +
                      " loop closures");
   const bool is_kept = summary["guarantee_given_up_at"].get<std::int64_t>() < 0;
-  line("hypotheses",
-       number("hypotheses") + " alive, the best has probability " + number("best_probability") +
-           "; guarantee " +
-           (is_kept ? "kept"
-                    : "given up at visit " + number("guarantee_given_up_at") + ": " +
-                          summary["guarantee_reason"].get<std::string>()));
+  line("hypotheses", number("hypotheses") + " alive, the best has probability " +
+                         number("best_probability") + "; guarantee " +
+                         (is_kept ? "kept"
+                                  : "given up at visit " + number("guarantee_given_up_at") + ": " +
+                                        summary["guarantee_reason"].get<std::string>()));
   line("seconds", counts_text(summary["seconds"]));
   const double log_s = summary["log_s"].get<double>();
   const double spent_s = summary["spent_s"].get<double>();
@@ -203,8 +202,9 @@ Status check_is_new(const std::string& map_file) {
   if (std::filesystem::exists(map_file, ignored) &&
       std::filesystem::file_size(map_file, ignored) > 0) {
     return Error{ErrorCode::kUnavailable,
-                 map_file + " is there already, and a replay never writes over a map: remove it or "
-                            "choose another name"};
+                 map_file +
+                     " is there already, and a replay never writes over a map: remove it or "
+                     "choose another name"};
   }
   return {};
 }
@@ -215,8 +215,10 @@ void complain(const std::string& message) {
 
 }  // namespace
 
-ExitCode replay(const DaemonOptions& options, const std::vector<std::string>& logs,
-                const std::string& map_file, bool as_json) {
+ExitCode replay(const DaemonOptions& options,
+                const std::vector<std::string>& logs,
+                const std::string& map_file,
+                bool as_json) {
   const Clock::time_point start = Clock::now();
   if (const Status status = check_is_new(map_file); !status) {
     complain(status.error().message);

@@ -12,7 +12,9 @@ namespace cairn {
 /// machine allows, into a new map file, and prints a summary. The same logs give the same bytes.
 ///
 /// A damaged log ends the replay with kBadData; what was read until then is kept.
-[[nodiscard]] ExitCode replay(const DaemonOptions& options, const std::vector<std::string>& logs,
-                              const std::string& map_file, bool as_json);
+[[nodiscard]] ExitCode replay(const DaemonOptions& options,
+                              const std::vector<std::string>& logs,
+                              const std::string& map_file,
+                              bool as_json);
 
 }  // namespace cairn

@@ -6,7 +6,8 @@
 
 namespace cairn {
 
-SolverThread::SolverThread(const GlobalMapOptions& map_options, const PathOptions& path_options,
+SolverThread::SolverThread(const GlobalMapOptions& map_options,
+                           const PathOptions& path_options,
                            const Wakeup& wakeup)
     : map_maker_(map_options),
       path_options_(path_options),
@@ -15,7 +16,9 @@ SolverThread::SolverThread(const GlobalMapOptions& map_options, const PathOption
       outcomes_(4 * kMaxWaiting),
       thread_([this] { run(); }) {}
 
-SolverThread::~SolverThread() { stop(); }
+SolverThread::~SolverThread() {
+  stop();
+}
 
 void SolverThread::stop() {
   orders_.close();

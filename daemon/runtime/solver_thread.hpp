@@ -35,15 +35,16 @@ struct PlanOrder {
   Sender sender;
 };
 
-/// The thread that draws the global map and plans ways on it, from immutable pictures of the map, so
-/// that neither large maps nor many clients ever delay a scan.
+/// The thread that draws the global map and plans ways on it, from immutable pictures of the map,
+/// so that neither large maps nor many clients ever delay a scan.
 class SolverThread {
  public:
   using Outcome = std::variant<Drawing, cairn_lcm::plan_t>;
   static constexpr std::size_t kMaxWaiting = 10;
 
   /// @param wakeup is signalled for every outcome; must outlive this object
-  SolverThread(const GlobalMapOptions& map_options, const PathOptions& path_options,
+  SolverThread(const GlobalMapOptions& map_options,
+               const PathOptions& path_options,
                const Wakeup& wakeup);
   ~SolverThread();
   SolverThread(const SolverThread&) = delete;

@@ -20,7 +20,9 @@ StopSignal::StopSignal() {
   CAIRN_CHECK(fd_ >= 0);
 }
 
-StopSignal::~StopSignal() { close(fd_); }
+StopSignal::~StopSignal() {
+  close(fd_);
+}
 
 bool StopSignal::was_raised() {
   bool stop = false;

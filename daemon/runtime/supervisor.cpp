@@ -13,11 +13,17 @@ Supervisor::Supervisor() {
   }
 }
 
-void Supervisor::ready() { sd_notify(0, "READY=1"); }
+void Supervisor::ready() {
+  sd_notify(0, "READY=1");
+}
 
-void Supervisor::status(const std::string& line) { sd_notify(0, ("STATUS=" + line).c_str()); }
+void Supervisor::status(const std::string& line) {
+  sd_notify(0, ("STATUS=" + line).c_str());
+}
 
-void Supervisor::stopping() { sd_notify(0, "STOPPING=1"); }
+void Supervisor::stopping() {
+  sd_notify(0, "STOPPING=1");
+}
 
 void Supervisor::alive(std::chrono::steady_clock::time_point now) {
   if (interval_.count() > 0 && now - last_alive_ >= interval_) {

@@ -66,7 +66,8 @@ std::int64_t Statement::integer(int column) const {
 
 std::string Statement::text(int column) const {
   const unsigned char* const text = sqlite3_column_text(statement_.get(), column);
-  return text == nullptr ? std::string() : std::string(text, text + sqlite3_column_bytes(statement_.get(), column));
+  return text == nullptr ? std::string()
+                         : std::string(text, text + sqlite3_column_bytes(statement_.get(), column));
 }
 
 std::vector<std::uint8_t> Statement::bytes(int column) const {
@@ -78,12 +79,14 @@ std::vector<std::uint8_t> Statement::bytes(int column) const {
   return {bytes, bytes + sqlite3_column_bytes(statement_.get(), column)};
 }
 
-void Database::Closer::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
+void Database::Closer::operator()(sqlite3* database) const {
+  sqlite3_close_v2(database);
+}
 
 Result<Database> Database::open(const std::string& file) {
   sqlite3* handle = nullptr;
-  const int code = sqlite3_open_v2(file.c_str(), &handle,
-                                   SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
+  const int code =
+      sqlite3_open_v2(file.c_str(), &handle, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
   Database database(handle);
   if (code != SQLITE_OK) {
     return error_of(handle, file);
@@ -107,6 +110,8 @@ Result<Statement> Database::prepare(const std::string& sql) {
   return Statement(statement);
 }
 
-bool Database::is_in_transaction() const { return sqlite3_get_autocommit(database_.get()) == 0; }
+bool Database::is_in_transaction() const {
+  return sqlite3_get_autocommit(database_.get()) == 0;
+}
 
 }  // namespace cairn

@@ -28,14 +28,18 @@ namespace {
 
 constexpr std::size_t kMaxRowBytes = std::size_t{64} << 20U;
 
-Error malformed(const std::string& what) { return {ErrorCode::kMalformed, "journal: " + what}; }
+Error malformed(const std::string& what) {
+  return {ErrorCode::kMalformed, "journal: " + what};
+}
 
 void put(const Pose2& pose, double (&out)[3]) {  // NOLINT: the generated type has arrays
   out[0] = pose.x();
   out[1] = pose.y();
   out[2] = pose.theta();
 }
-Pose2 pose_of(const double (&in)[3]) { return {in[0], in[1], in[2]}; }  // NOLINT
+Pose2 pose_of(const double (&in)[3]) {
+  return {in[0], in[1], in[2]};
+}  // NOLINT
 
 void put(const Matrix3d& matrix, double (&out)[9]) {  // NOLINT
   for (int i = 0; i < 9; ++i) {
@@ -54,7 +58,9 @@ void put(const Vector2d& point, double* out) {
   out[0] = point.x();
   out[1] = point.y();
 }
-Vector2d point_of(const double* in) { return {in[0], in[1]}; }
+Vector2d point_of(const double* in) {
+  return {in[0], in[1]};
+}
 
 float evenly_spaced(float first, float second, std::size_t i) {
   return static_cast<float>(static_cast<double>(first) +
@@ -178,8 +184,8 @@ Result<PlaceNeighbourhood> neighbourhood_of(const cairn_journal::visit_record_t&
     if (!is_sound) {
       return malformed("a star that names a missing gateway or slot");
     }
-    neighbourhood.star.slots.push_back({slot.gateway, static_cast<std::size_t>(slot.partner),
-                                        static_cast<ControlLaw>(slot.law)});
+    neighbourhood.star.slots.push_back(
+        {slot.gateway, static_cast<std::size_t>(slot.partner), static_cast<ControlLaw>(slot.law)});
   }
   return neighbourhood;
 }

@@ -8,7 +8,8 @@
 
 namespace cairn {
 
-/// Rows of the journal: cairn_journal messages, compressed with zstd. Equal values give equal bytes.
+/// Rows of the journal: cairn_journal messages, compressed with zstd. Equal values give equal
+/// bytes.
 [[nodiscard]] std::vector<std::uint8_t> to_row(const PerceivedScan& scan);
 [[nodiscard]] std::vector<std::uint8_t> to_row(const Visit& visit);
 

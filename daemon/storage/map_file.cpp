@@ -98,9 +98,9 @@ Status MapFile::check_format() {
     return foreign;
   }
   if (version->text(0) != std::to_string(kFormatVersion)) {
-    return Error{ErrorCode::kMalformed, "map format " + version->text(0) +
-                                            " is not the one this cairnd knows: " +
-                                            std::to_string(kFormatVersion)};
+    return Error{ErrorCode::kMalformed,
+                 "map format " + version->text(0) +
+                     " is not the one this cairnd knows: " + std::to_string(kFormatVersion)};
   }
   return {};
 }
@@ -171,7 +171,8 @@ void MapFile::roll_back() {
   static_cast<void>(read_meta().ok());
 }
 
-Status MapFile::write_document(int what, std::int64_t revision,
+Status MapFile::write_document(int what,
+                               std::int64_t revision,
                                const std::vector<std::uint8_t>& bytes) {
   if (Status status = begin(); !status) {
     return status;

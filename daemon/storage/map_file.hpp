@@ -22,8 +22,8 @@ class MapFile {
  public:
   static constexpr int kFormatVersion = 1;
 
-  /// Opens or creates. kUnavailable where the path cannot be written, kMalformed where the file is no
-  /// map file or of a newer format.
+  /// Opens or creates. kUnavailable where the path cannot be written, kMalformed where the file is
+  /// no map file or of a newer format.
   [[nodiscard]] static Result<MapFile> open(const std::string& file);
 
   /// Takes a scan into the journal, with the next commit.

@@ -13,7 +13,9 @@ void put(const Matrix3d& covariance, double* out) {
   }
 }
 
-int count_of(std::size_t size) { return static_cast<int>(size); }
+int count_of(std::size_t size) {
+  return static_cast<int>(size);
+}
 
 cairn_lcm::gateway_t to_gateway(const MappedGateway& gateway) {
   cairn_lcm::gateway_t message{};
@@ -36,8 +38,8 @@ cairn_lcm::place_t to_place(const MappedPlace& place) {
   put(place.T_global_place.covariance, message.covariance_m2_rad2);
   message.star = place.star;
   message.num_visits = place.visit_count;
-  std::transform(place.gateways.begin(), place.gateways.end(),
-                 std::back_inserter(message.gateways), to_gateway);
+  std::transform(place.gateways.begin(), place.gateways.end(), std::back_inserter(message.gateways),
+                 to_gateway);
   message.num_gateways = count_of(message.gateways.size());
   return message;
 }
@@ -90,8 +92,8 @@ cairn_lcm::topology_t to_topology(const MapState& state, const Sender& sender) {
   std::transform(state.places.begin(), state.places.end(), std::back_inserter(message.places),
                  to_place);
   message.num_places = count_of(message.places.size());
-  std::transform(state.segments.begin(), state.segments.end(),
-                 std::back_inserter(message.segments), to_segment);
+  std::transform(state.segments.begin(), state.segments.end(), std::back_inserter(message.segments),
+                 to_segment);
   message.num_segments = count_of(message.segments.size());
   return message;
 }
@@ -136,8 +138,10 @@ cairn_lcm::trajectory_t to_trajectory(const MapState& state, const Sender& sende
   return message;
 }
 
-cairn_lcm::pose_t to_pose(const LocalFix& fix, const GaussianPose* T_global_robot,
-                          const MapState* state, const Sender& sender) {
+cairn_lcm::pose_t to_pose(const LocalFix& fix,
+                          const GaussianPose* T_global_robot,
+                          const MapState* state,
+                          const Sender& sender) {
   cairn_lcm::pose_t message{};
   message.utime = utime_of(fix.time);
   message.boot_id = sender.boot_id;
@@ -157,8 +161,8 @@ cairn_lcm::pose_t to_pose(const LocalFix& fix, const GaussianPose* T_global_robo
   const MappedPlace* const place =
       state == nullptr ? nullptr : place_around(*state, T_global_robot->mean.translation());
   if (place != nullptr) {
-    const GaussianPose T_place_robot = compounded(
-        inverted({place->T_global_place.mean, Matrix3d::Zero()}), *T_global_robot);
+    const GaussianPose T_place_robot =
+        compounded(inverted({place->T_global_place.mean, Matrix3d::Zero()}), *T_global_robot);
     message.place_id = place->id;
     message.place_x_m = T_place_robot.mean.x();
     message.place_y_m = T_place_robot.mean.y();

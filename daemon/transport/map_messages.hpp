@@ -27,7 +27,9 @@ struct Sender {
 
 /// @param T_global_robot none while no pose in the global frame is claimed
 /// @param state may be null: no place is known then
-[[nodiscard]] cairn_lcm::pose_t to_pose(const LocalFix& fix, const GaussianPose* T_global_robot,
-                                        const MapState* state, const Sender& sender);
+[[nodiscard]] cairn_lcm::pose_t to_pose(const LocalFix& fix,
+                                        const GaussianPose* T_global_robot,
+                                        const MapState* state,
+                                        const Sender& sender);
 
 }  // namespace cairn

@@ -26,18 +26,23 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
 
 }  // namespace
 
-OptionObject& OptionObject::add(const std::string& key, Binding binding,
+OptionObject& OptionObject::add(const std::string& key,
+                                Binding binding,
                                 const std::string& meaning) {
   entries_.push_back({key, std::move(binding), meaning});
   return *this;
 }
 
-OptionObject& OptionObject::number(const std::string& key, double* value, Range range,
+OptionObject& OptionObject::number(const std::string& key,
+                                   double* value,
+                                   Range range,
                                    const std::string& meaning) {
   return add(key, Number{value, range}, meaning);
 }
 
-OptionObject& OptionObject::integer(const std::string& key, int* value, Range range,
+OptionObject& OptionObject::integer(const std::string& key,
+                                    int* value,
+                                    Range range,
                                     const std::string& meaning) {
   return add(key, Integer{value, range}, meaning);
 }
@@ -46,18 +51,22 @@ OptionObject& OptionObject::flag(const std::string& key, bool* value, const std:
   return add(key, value, meaning);
 }
 
-OptionObject& OptionObject::text(const std::string& key, std::string* value,
+OptionObject& OptionObject::text(const std::string& key,
+                                 std::string* value,
                                  const std::string& meaning) {
   return add(key, value, meaning);
 }
 
-OptionObject& OptionObject::choice(const std::string& key, std::function<int()> get,
-                                   std::function<void(int)> set, std::vector<std::string> names,
+OptionObject& OptionObject::choice(const std::string& key,
+                                   std::function<int()> get,
+                                   std::function<void(int)> set,
+                                   std::vector<std::string> names,
                                    const std::string& meaning) {
   return add(key, Choice{std::move(get), std::move(set), std::move(names)}, meaning);
 }
 
-OptionObject& OptionObject::texts(const std::string& key, std::vector<std::string>* value,
+OptionObject& OptionObject::texts(const std::string& key,
+                                  std::vector<std::string>* value,
                                   const std::string& meaning) {
   return add(key, value, meaning);
 }
@@ -68,7 +77,8 @@ OptionObject& OptionObject::object(OptionObject child) {
   return add(key, std::vector<OptionObject>{std::move(child)}, meaning);
 }
 
-OptionObject& OptionObject::list(const std::string& key, std::function<std::size_t()> size,
+OptionObject& OptionObject::list(const std::string& key,
+                                 std::function<std::size_t()> size,
                                  std::function<void(std::size_t)> resize,
                                  std::function<OptionObject(std::size_t)> element,
                                  const std::string& meaning) {
@@ -151,7 +161,8 @@ struct OptionObject::Reader {
   }
 };
 
-void OptionObject::read_into(const Json& json, const std::string& path,
+void OptionObject::read_into(const Json& json,
+                             const std::string& path,
                              std::vector<std::string>* complaints) {
   const std::string prefix = path.empty() ? "" : path + ".";
   if (!json.is_object()) {

@@ -34,24 +34,33 @@ class OptionObject {
   OptionObject(std::string key, std::string meaning)
       : key_(std::move(key)), meaning_(std::move(meaning)) {}
 
-  OptionObject& number(const std::string& key, double* value, Range range,
+  OptionObject& number(const std::string& key,
+                       double* value,
+                       Range range,
                        const std::string& meaning);
-  OptionObject& integer(const std::string& key, int* value, Range range,
+  OptionObject& integer(const std::string& key,
+                        int* value,
+                        Range range,
                         const std::string& meaning);
   OptionObject& flag(const std::string& key, bool* value, const std::string& meaning);
   OptionObject& text(const std::string& key, std::string* value, const std::string& meaning);
   /// An enumeration: its value is the position of the name in the list.
-  OptionObject& choice(const std::string& key, std::function<int()> get,
-                       std::function<void(int)> set, std::vector<std::string> names,
+  OptionObject& choice(const std::string& key,
+                       std::function<int()> get,
+                       std::function<void(int)> set,
+                       std::vector<std::string> names,
                        const std::string& meaning);
   /// A list of strings.
-  OptionObject& texts(const std::string& key, std::vector<std::string>* value,
+  OptionObject& texts(const std::string& key,
+                      std::vector<std::string>* value,
                       const std::string& meaning);
   OptionObject& object(OptionObject child);
   /// A list of objects: `size` and `resize` work on the bound vector, `element` describes one.
-  OptionObject& list(const std::string& key, std::function<std::size_t()> size,
+  OptionObject& list(const std::string& key,
+                     std::function<std::size_t()> size,
                      std::function<void(std::size_t)> resize,
-                     std::function<OptionObject(std::size_t)> element, const std::string& meaning);
+                     std::function<OptionObject(std::size_t)> element,
+                     const std::string& meaning);
 
   [[nodiscard]] const std::string& key() const { return key_; }
 
@@ -85,8 +94,14 @@ class OptionObject {
     std::function<void(std::size_t)> resize;
     std::function<OptionObject(std::size_t)> element;
   };
-  using Binding = std::variant<Number, Integer, bool*, std::string*, std::vector<std::string>*,
-                               Choice, List, std::vector<OptionObject>>;
+  using Binding = std::variant<Number,
+                               Integer,
+                               bool*,
+                               std::string*,
+                               std::vector<std::string>*,
+                               Choice,
+                               List,
+                               std::vector<OptionObject>>;
   struct Entry {
     std::string key;
     Binding binding;

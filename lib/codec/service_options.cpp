@@ -5,7 +5,8 @@ namespace {
 
 OptionObject describe(JoinerOptions* joiner) {
   OptionObject object("joiner", "How scans and odometry are brought together by their stamps.");
-  object.number("history_s", &joiner->history_s, {0.1, 600}, "Odometry that is kept, by its stamps.")
+  object
+      .number("history_s", &joiner->history_s, {0.1, 600}, "Odometry that is kept, by its stamps.")
       .number("patience_s", &joiner->patience_s, {0, 60}, "How long a scan waits for odometry.")
       .number("clock_step_back_s", &joiner->clock_step_back_s, {0.1, 3600},
               "A longer jump back is a new clock: the inputs start afresh.")
@@ -49,8 +50,9 @@ OptionObject describe(MotionModelOptions* motion) {
 
 OptionObject describe(ScanMatchOptions* match) {
   OptionObject object("match", "Scan matching against the scrolling map.");
-  object.number("point_spacing_m", &match->point_spacing_m, {0, 5},
-                "Returns closer together than this are thinned.")
+  object
+      .number("point_spacing_m", &match->point_spacing_m, {0, 5},
+              "Returns closer together than this are thinned.")
       .number("max_match_range_m", &match->max_match_range_m, {0.5, 200},
               "Farther returns are not matched.")
       .number("hit_sigma_m", &match->hit_sigma_m, {0.001, 1}, "Spread of a return around the wall.")
@@ -61,7 +63,8 @@ OptionObject describe(ScanMatchOptions* match) {
       .integer("min_returns", &match->min_returns, {3, 10000},
                "Fewer returns: the sensor is blocked.")
       .number("search_range_m", &match->search_range_m, {0, 5}, "Half the wide search's window.")
-      .number("search_turn_rad", &match->search_turn_rad, {0, 3.2}, "Half the wide search's window.");
+      .number("search_turn_rad", &match->search_turn_rad, {0, 3.2},
+              "Half the wide search's window.");
   return object;
 }
 
@@ -70,7 +73,8 @@ OptionObject describe(LpmOptions* lpm) {
   object.object(describe(&lpm->map))
       .object(describe(&lpm->motion))
       .object(describe(&lpm->match))
-      .number("insert_every_m", &lpm->insert_every_m, {0, 5}, "The map takes a scan after this travel,")
+      .number("insert_every_m", &lpm->insert_every_m, {0, 5},
+              "The map takes a scan after this travel,")
       .number("insert_every_rad", &lpm->insert_every_rad, {0, 3.2}, "or after this turn.")
       .integer("refusals_before_restart", &lpm->refusals_before_restart, {1, 1000},
                "So many refused matches in a row: the local map starts afresh.");
@@ -79,8 +83,9 @@ OptionObject describe(LpmOptions* lpm) {
 
 OptionObject describe(ContinuationOptions* continuation) {
   OptionObject object("continuation", "When a path goes on through a place.");
-  object.number("max_turn_rad", &continuation->max_turn_rad, {0.01, 3.1},
-                "Largest turn between inbound and outbound heading.")
+  object
+      .number("max_turn_rad", &continuation->max_turn_rad, {0.01, 3.1},
+              "Largest turn between inbound and outbound heading.")
       .number("rival_margin_rad", &continuation->rival_margin_rad, {0, 3.1},
               "Least extra turn of the next best continuation.");
   return object;
@@ -93,7 +98,8 @@ OptionObject describe(PlaceOptions* place) {
       .number("robot_width_m", &place->robot_width_m, {0.05, 5}, "Narrower passages are none.")
       .number("coastal_distance_m", &place->coastal_distance_m, {0.05, 20},
               "Alcoves less deep are no branches.")
-      .number("speck_m", &place->speck_m, {0, 2}, "Isolated obstacles up to this extent are ignored.")
+      .number("speck_m", &place->speck_m, {0, 2},
+              "Isolated obstacles up to this extent are ignored.")
       .number("constriction_ahead_m", &place->constriction_ahead_m, {0.1, 20},
               "Stretch of axis compared for a constriction.")
       .number("constriction_tolerance_m", &place->constriction_tolerance_m, {0, 2},
@@ -174,17 +180,20 @@ OptionObject describe(GlobalMapOptions* map) {
       .number("miss_log_odds", &map->miss_log_odds, {0.01, 10}, "A scan sees through the cell.")
       .number("moved_m", &map->moved_m, {0, 10}, "A scan moved by no more stays as it is drawn.")
       .number("turned_rad", &map->turned_rad, {0, 3.1}, "The same for its heading.")
-      .integer("max_tiles", &map->max_tiles, {1, 1e6}, "What lies beyond this budget is not drawn.");
+      .integer("max_tiles", &map->max_tiles, {1, 1e6},
+               "What lies beyond this budget is not drawn.");
   return object;
 }
 
 OptionObject describe(GridSearchOptions* search) {
   OptionObject object("search", "Ways over the cells of the map.");
-  object.number("robot_radius_m", &search->robot_radius_m, {0, 10},
-                "Cells with less clearance are not traversable.")
+  object
+      .number("robot_radius_m", &search->robot_radius_m, {0, 10},
+              "Cells with less clearance are not traversable.")
       .number("comfort_clearance_m", &search->comfort_clearance_m, {0, 20},
               "Nearer to walls than this, cells cost more.")
-      .number("wall_cost", &search->wall_cost, {0, 14}, "Added cost per metre at the robot's radius.")
+      .number("wall_cost", &search->wall_cost, {0, 14},
+              "Added cost per metre at the robot's radius.")
       .flag("unknown_is_traversable", &search->unknown_is_traversable,
             "Whether paths may lead where nothing was seen.");
   return object;
@@ -193,8 +202,10 @@ OptionObject describe(GridSearchOptions* search) {
 OptionObject describe(PathOptions* path) {
   OptionObject object("path", "Metric paths.");
   object.object(describe(&path->search))
-      .number("corridor_m", &path->corridor_m, {0.1, 100}, "A path along a route stays this near to it.")
-      .number("waypoint_spacing_m", &path->waypoint_spacing_m, {0.01, 100}, "Between two waypoints.")
+      .number("corridor_m", &path->corridor_m, {0.1, 100},
+              "A path along a route stays this near to it.")
+      .number("waypoint_spacing_m", &path->waypoint_spacing_m, {0.01, 100},
+              "Between two waypoints.")
       .number("start_tolerance_m", &path->start_tolerance_m, {0, 10},
               "A robot this near to traversable space may start there.")
       .number("goal_tolerance_m", &path->goal_tolerance_m, {0, 10},
@@ -205,9 +216,8 @@ OptionObject describe(PathOptions* path) {
 }  // namespace
 
 std::vector<OptionObject> describe(ServiceOptions* options) {
-  return {describe(&options->joiner),      describe(&options->lpm),
-          describe(&options->place),       describe(&options->recognition),
-          describe(&options->topology),    describe(&options->layout),
+  return {describe(&options->joiner),      describe(&options->lpm),      describe(&options->place),
+          describe(&options->recognition), describe(&options->topology), describe(&options->layout),
           describe(&options->global_map),  describe(&options->path)};
 }
 

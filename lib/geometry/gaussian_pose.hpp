@@ -25,7 +25,8 @@ struct GaussianPose {
 
 /// Squared Mahalanobis length of the difference of two poses in one frame; heading is wrapped.
 /// @pre is_positive_definite(covariance)
-[[nodiscard]] double squared_mahalanobis(const Pose2& a, const Pose2& b,
+[[nodiscard]] double squared_mahalanobis(const Pose2& a,
+                                         const Pose2& b,
                                          const Matrix3d& covariance);
 
 }  // namespace cairn

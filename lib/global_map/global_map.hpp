@@ -33,7 +33,7 @@ struct GlobalMapOptions {
   double cell_m = 0.05;         ///< > 0
   int tile_cells = 64;          ///< Cells along the side of a tile. [8, 1024]
   double draw_range_m = 10.0;   ///< Beams are drawn up to here. (0, 100]
-  double hit_log_odds = 1.35;  ///< A scan ends a beam in the cell. (0, 10]
+  double hit_log_odds = 1.35;   ///< A scan ends a beam in the cell. (0, 10]
   double miss_log_odds = 0.45;  ///< A scan sees through the cell. (0, 10]
   double moved_m = 0.01;        ///< A scan moved by no more stays as it is drawn. >= 0
   double turned_rad = 0.002;    ///< The same for its heading. >= 0

@@ -43,7 +43,8 @@ Pose2 laid_on(const std::vector<Gateway>& known, const std::vector<Gateway>& vis
 
 }  // namespace
 
-Pose2 aligned(const std::vector<Vector2d>& points_a, const std::vector<Vector2d>& points_b,
+Pose2 aligned(const std::vector<Vector2d>& points_a,
+              const std::vector<Vector2d>& points_b,
               double fallback_theta_rad) {
   CAIRN_CHECK(!points_a.empty() && points_a.size() == points_b.size());
   Vector2d mean_a = Vector2d::Zero();
@@ -62,8 +63,7 @@ Pose2 aligned(const std::vector<Vector2d>& points_a, const std::vector<Vector2d>
     dot += b.dot(a);
     cross += b.x() * a.y() - b.y() * a.x();
   }
-  const double theta =
-      std::hypot(dot, cross) > 1e-9 ? std::atan2(cross, dot) : fallback_theta_rad;
+  const double theta = std::hypot(dot, cross) > 1e-9 ? std::atan2(cross, dot) : fallback_theta_rad;
   const Vector2d rotated = Pose2(0.0, 0.0, theta) * mean_b;
   return {Vector2d(mean_a - rotated), theta};
 }
@@ -75,7 +75,9 @@ Pose2 aligned_by_gateways(const PlaceVisit& known, const PlaceVisit& visit, int 
   return laid_on(known_gateways, visit_gateways, shift);
 }
 
-Recognition recognize(const PlaceVisit& known, const PlaceVisit& visit, int shift,
+Recognition recognize(const PlaceVisit& known,
+                      const PlaceVisit& visit,
+                      int shift,
                       const MapMatchOptions& options) {
   const Pose2 T_known_visit = aligned_by_gateways(known, visit, shift);
   const MapMatch match = match_maps(known.lpm, visit.lpm, T_known_visit, options);

@@ -12,7 +12,8 @@
 namespace cairn {
 namespace {
 
-std::vector<Pose2> local_poses(const std::vector<PerceivedScan>& scans, std::size_t first,
+std::vector<Pose2> local_poses(const std::vector<PerceivedScan>& scans,
+                               std::size_t first,
                                std::size_t last) {
   std::vector<Pose2> poses;
   for (std::size_t i = first; i <= last; ++i) {
@@ -36,20 +37,20 @@ void add_trajectory(const Experience& experience, MetricalMap* map) {
     map->trajectory.push_back(T_global_first_lpm * scans[i].fix.T_lpm_robot);
   }
   for (std::size_t v = 0; v + 1 < map->T_global_visit.size(); ++v) {
-    const std::vector<Pose2> bent = interpolate_travel(
-        local_poses(scans, visits[v].anchor_scan, visits[v + 1].anchor_scan), T_global_anchor(v),
-        T_global_anchor(v + 1));
+    const std::vector<Pose2> bent =
+        interpolate_travel(local_poses(scans, visits[v].anchor_scan, visits[v + 1].anchor_scan),
+                           T_global_anchor(v), T_global_anchor(v + 1));
     map->trajectory.insert(map->trajectory.end(), bent.begin(), bent.end() - 1);
   }
-  map->T_global_lpm =
-      map->T_global_visit.back() * visits.back().perceived.T_lpm_place.inverse();
+  map->T_global_lpm = map->T_global_visit.back() * visits.back().perceived.T_lpm_place.inverse();
   for (std::size_t i = visits.back().anchor_scan; i < scans.size(); ++i) {
     map->trajectory.push_back(map->T_global_lpm * scans[i].fix.T_lpm_robot);
   }
 }
 
 /// Outward bearings of a visit's gateway in the place frame.
-std::vector<int> path_of_gateway(const TopologicalMap& map, const std::vector<Path>& paths,
+std::vector<int> path_of_gateway(const TopologicalMap& map,
+                                 const std::vector<Path>& paths,
                                  PlaceId place) {
   std::vector<int> path_of(static_cast<std::size_t>(map.gateway_count(place)), -1);
   for (std::size_t p = 0; p < paths.size(); ++p) {
@@ -75,8 +76,10 @@ GatewayRef gateway_of_place(const TopologicalMap& map, VisitId visit, int gatewa
 
 }  // namespace
 
-Result<MetricalMap> metrical_map(const TopologicalMap& map, const Experience& experience,
-                                 const VisitMatcher& matcher, const LayoutOptions& options) {
+Result<MetricalMap> metrical_map(const TopologicalMap& map,
+                                 const Experience& experience,
+                                 const VisitMatcher& matcher,
+                                 const LayoutOptions& options) {
   CAIRN_CHECK(map.visit_count() > 0);
   LayoutOptions with_covariances = options;
   with_covariances.covariances = true;
@@ -101,7 +104,7 @@ Result<MetricalMap> metrical_map(const TopologicalMap& map, const Experience& ex
 }
 
 std::vector<TimedPose> with_poses_between(const std::vector<PerceivedScan>& scans,
-                                            const std::vector<PosedScan>& trajectory) {
+                                          const std::vector<PosedScan>& trajectory) {
   CAIRN_CHECK(scans.size() == trajectory.size());
   std::vector<TimedPose> poses;
   for (std::size_t i = 0; i < scans.size(); ++i) {
@@ -122,7 +125,8 @@ std::vector<TimedPose> with_poses_between(const std::vector<PerceivedScan>& scan
   return poses;
 }
 
-std::vector<MappedPlace> mapped_places(const TopologicalMap& map, const Experience& experience,
+std::vector<MappedPlace> mapped_places(const TopologicalMap& map,
+                                       const Experience& experience,
                                        const PlaceLayout& layout) {
   const std::vector<Path> paths = trace_paths(map);
   std::vector<MappedPlace> places;
@@ -136,8 +140,8 @@ std::vector<MappedPlace> mapped_places(const TopologicalMap& map, const Experien
     place.star = large_scale_text(map.star(id), 0);
     for (int g = 0; g < map.gateway_count(id); ++g) {
       const auto index = static_cast<std::size_t>(g);
-      place.gateways.push_back({first.neighbourhood.gateways[index],
-                                map.is_pending({id, g}), path_of[index]});
+      place.gateways.push_back(
+          {first.neighbourhood.gateways[index], map.is_pending({id, g}), path_of[index]});
     }
     places.push_back(std::move(place));
   }
@@ -157,8 +161,7 @@ std::vector<MappedSegment> mapped_segments(const TopologicalMap& map,
     const PlaceVisit& visit = experience.visits()[static_cast<std::size_t>(v)].perceived;
     const PlaceVisit& next = experience.visits()[static_cast<std::size_t>(v) + 1].perceived;
     GatewayRef from = gateway_of_place(map, VisitId{v}, departure_gateway(visit, next));
-    GatewayRef to =
-        gateway_of_place(map, VisitId{v + 1}, std::max(next.arrival_gateway, 0));
+    GatewayRef to = gateway_of_place(map, VisitId{v + 1}, std::max(next.arrival_gateway, 0));
     const bool is_reversed = to < from;
     if (is_reversed) {
       std::swap(from, to);

@@ -18,8 +18,8 @@ struct MetricalMap {
   Pose2 T_global_lpm;                 ///< From the last visit on, the local map moves rigidly.
 };
 
-/// Lays a hypothesis out and bends the trajectory to it. The global frame is the one in which place 0
-/// lies where the local map had it at its first visit, so the robot starts near the origin.
+/// Lays a hypothesis out and bends the trajectory to it. The global frame is the one in which place
+/// 0 lies where the local map had it at its first visit, so the robot starts near the origin.
 ///
 /// Source: Modayil et al., IROS 2004, Sec. IV-C to IV-E.
 /// @pre the map has at least one visit
@@ -31,8 +31,8 @@ struct MetricalMap {
 /// The poses of all scans and, interpolated between each two along the odometry, of all odometry
 /// samples.
 /// @pre as many trajectory poses as scans
-[[nodiscard]] std::vector<TimedPose> with_poses_between(
-    const std::vector<PerceivedScan>& scans, const std::vector<PosedScan>& trajectory);
+[[nodiscard]] std::vector<TimedPose> with_poses_between(const std::vector<PerceivedScan>& scans,
+                                                        const std::vector<PosedScan>& trajectory);
 
 /// Places with gateways and stars, as they are published.
 [[nodiscard]] std::vector<MappedPlace> mapped_places(const TopologicalMap& map,
@@ -41,7 +41,9 @@ struct MetricalMap {
 
 /// Segments that were travelled, as they are published, in the order of their first travel.
 [[nodiscard]] std::vector<MappedSegment> mapped_segments(
-    const TopologicalMap& map, const Experience& experience, const PlaceLayout& layout,
+    const TopologicalMap& map,
+    const Experience& experience,
+    const PlaceLayout& layout,
     const std::vector<TravelConstraint>& constraints);
 
 /// The best hypotheses of the fringe, at most `count`.

@@ -9,15 +9,17 @@
 namespace cairn {
 namespace {
 
-/// L of Modayil et al.: the robot at a scan, in the place frame of the visit. The place frame has the
-/// orientation of the lpm frame, so the covariance stays as it is.
+/// L of Modayil et al.: the robot at a scan, in the place frame of the visit. The place frame has
+/// the orientation of the lpm frame, so the covariance stays as it is.
 GaussianPose robot_in_place(const Visit& visit, const LocalFix& fix) {
   return {visit.perceived.T_lpm_place.inverse() * fix.T_lpm_robot, fix.covariance};
 }
 
 }  // namespace
 
-void Experience::add(PerceivedScan scan) { scans_.push_back(std::move(scan)); }
+void Experience::add(PerceivedScan scan) {
+  scans_.push_back(std::move(scan));
+}
 
 Visit Experience::anchored(PlaceVisit visit) const {
   CAIRN_CHECK(!scans_.empty());

@@ -18,8 +18,8 @@ struct PerceivedScan {
   std::shared_ptr<const LaserScan> scan;
   LocalFix fix;
   /// Odometry since the scan before, in the order of arrival, as poses in the frame of the robot at
-  /// that scan; the last one is of this scan itself. Poses between scans are interpolated along them.
-  /// Empty where one of the two scans has no odometry.
+  /// that scan; the last one is of this scan itself. Poses between scans are interpolated along
+  /// them. Empty where one of the two scans has no odometry.
   std::vector<OdometrySample> between;
 };
 
@@ -32,8 +32,9 @@ struct Visit {
 
 /// The travel from one visit to the next.
 struct Travel {
-  GaussianPose T_from_to;  ///< F(lambda): place frame of the later visit in that of the earlier one.
-  double length_m = 0.0;   ///< Along the way.
+  GaussianPose
+      T_from_to;          ///< F(lambda): place frame of the later visit in that of the earlier one.
+  double length_m = 0.0;  ///< Along the way.
 };
 
 /// All that is remembered: every perceived scan and every visit, in order. The journal is this, on

@@ -31,7 +31,7 @@ struct MappedGateway {
 /// A place of the best map.
 struct MappedPlace {
   int id = -1;
-  std::string name;            ///< Given by a person; empty otherwise.
+  std::string name;  ///< Given by a person; empty otherwise.
   GaussianPose T_global_place;
   std::string star;  ///< Fig. 3(f) of Kuipers et al., ICRA 2004.
   int visit_count = 0;
@@ -45,7 +45,7 @@ struct MappedSegment {
   int to_place = -1;
   int to_gateway = -1;
   int travel_count = 0;
-  double length_m = 0.0;       ///< Of the shortest travel.
+  double length_m = 0.0;  ///< Of the shortest travel.
   GaussianPose T_from_to;
   std::size_t first_scan = 0;  ///< Of one travel along it, in MapState::trajectory.
   std::size_t last_scan = 0;
@@ -63,29 +63,29 @@ struct HypothesisSummary {
   int pending = 0;
 };
 
-/// Everything that is published about the map, as one immutable picture: queries, the global map and
-/// the documents are made from it on other threads.
+/// Everything that is published about the map, as one immutable picture: queries, the global map
+/// and the documents are made from it on other threads.
 struct MapState {
-  TimePoint time;                     ///< Of the last scan.
+  TimePoint time;  ///< Of the last scan.
   std::int64_t topology_revision = 0;
   std::int64_t visit_count = 0;
-  std::int64_t hypothesis = -1;       ///< The best one; -1: no visit yet.
+  std::int64_t hypothesis = -1;  ///< The best one; -1: no visit yet.
   double probability = 0.0;
-  int at_place = -1;                  ///< Where the last visit was.
+  int at_place = -1;  ///< Where the last visit was.
   int path_count = 0;
   int closure_count = 0;
-  std::vector<int> place_of_visit;    ///< By visit. Places are numbered as they were first met.
+  std::vector<int> place_of_visit;  ///< By visit. Places are numbered as they were first met.
   std::vector<MappedPlace> places;
   std::vector<MappedSegment> segments;
   std::vector<HypothesisSummary> hypotheses;  ///< Best first; the best ones only.
   std::int64_t live_count = 0;
   std::int64_t refuted_count = 0;
-  std::int64_t guarantee_given_up_at = -1;    ///< Visit number; -1: every consistent map is alive.
+  std::int64_t guarantee_given_up_at = -1;  ///< Visit number; -1: every consistent map is alive.
   std::string guarantee_reason;
-  std::vector<PosedScan> trajectory;          ///< Every scan so far: H(x).
+  std::vector<PosedScan> trajectory;  ///< Every scan so far: H(x).
   /// Every scan and every odometry sample between scans, in the order of arrival.
   std::vector<TimedPose> poses;
-  Pose2 T_global_lpm;                         ///< Where the frame of the local map lies now.
+  Pose2 T_global_lpm;  ///< Where the frame of the local map lies now.
 };
 
 }  // namespace cairn

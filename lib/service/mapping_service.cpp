@@ -8,8 +8,8 @@
 #include "base/check.hpp"
 #include "lpm/local_mapper.hpp"
 #include "place/place_detector.hpp"
-#include "service/between_scans.hpp"
 #include "service/best_map.hpp"
+#include "service/between_scans.hpp"
 #include "service/visit_matcher.hpp"
 
 namespace cairn {
@@ -26,9 +26,9 @@ Action action_between(const PlaceVisit& from, const PlaceVisit& to) {
 
 /// Ways to extend a hypothesis that this arrival has ruled out.
 std::int64_t refuted_by(const ExtendReport& report) {
-  return report.links_contradicted + report.closures_of_other_view +
-         report.closures_of_other_face + report.closures_repeating_a_place +
-         report.closures_against_regions + report.refuted_by_evidence;
+  return report.links_contradicted + report.closures_of_other_view + report.closures_of_other_face +
+         report.closures_repeating_a_place + report.closures_against_regions +
+         report.refuted_by_evidence;
 }
 
 }  // namespace
@@ -94,9 +94,9 @@ class MappingService::Pipeline {
         experience_.visits().empty() ? 0 : experience_.visits().back().anchor_scan;
     if (visit.anchor_scan < earliest || visit.anchor_scan >= experience_.scans().size()) {
       return Error{ErrorCode::kInvalidValue,
-                   "visit " + std::to_string(experience_.visits().size()) + " is anchored at scan " +
-                       std::to_string(visit.anchor_scan) + ", expected one in [" +
-                       std::to_string(earliest) + ", " +
+                   "visit " + std::to_string(experience_.visits().size()) +
+                       " is anchored at scan " + std::to_string(visit.anchor_scan) +
+                       ", expected one in [" + std::to_string(earliest) + ", " +
                        std::to_string(experience_.scans().size()) + ")"};
     }
     Updates unused;
@@ -112,9 +112,7 @@ class MappingService::Pipeline {
   [[nodiscard]] const HypothesisTree& tree() const { return tree_; }
   [[nodiscard]] const OccupancyGrid& local_map() const { return local_mapper_.grid(); }
   [[nodiscard]] const JoinerCounters& joiner_counters() const { return joiner_.counters(); }
-  [[nodiscard]] const PlaceDetectorReport& place_report() const {
-    return place_detector_.report();
-  }
+  [[nodiscard]] const PlaceDetectorReport& place_report() const { return place_detector_.report(); }
   [[nodiscard]] GaussianPose T_global_robot() const {
     return compounded(T_global_anchor_, since_anchor_);
   }
@@ -184,8 +182,7 @@ class MappingService::Pipeline {
 
   void lay_out() {
     const Hypothesis& best = tree_.fringe().front();
-    Result<MetricalMap> metrical =
-        metrical_map(best.map, experience_, matcher_, options_.layout);
+    Result<MetricalMap> metrical = metrical_map(best.map, experience_, matcher_, options_.layout);
     // A layout that does not converge leaves the last one standing; the next visit tries again.
     if (metrical) {
       metrical_ = *std::move(metrical);
@@ -264,10 +261,10 @@ std::shared_ptr<const MapState> MappingService::Pipeline::state() const {
   state->visit_count = static_cast<std::int64_t>(experience_.visits().size());
   state->T_global_lpm = metrical_.T_global_lpm;
   for (std::size_t i = 0; i < scans.size(); ++i) {
-    state->trajectory.push_back({scans[i].scan,
-                                 i < metrical_.trajectory.size()
-                                     ? metrical_.trajectory[i]
-                                     : metrical_.T_global_lpm * scans[i].fix.T_lpm_robot});
+    state->trajectory.push_back(
+        {scans[i].scan, i < metrical_.trajectory.size()
+                            ? metrical_.trajectory[i]
+                            : metrical_.T_global_lpm * scans[i].fix.T_lpm_robot});
   }
   state->poses = with_poses_between(scans, state->trajectory);
   if (!scans.empty()) {
@@ -322,19 +319,35 @@ Updates MappingService::finish() {
   return updates;
 }
 
-void MappingService::recall(PerceivedScan scan) { pipeline_->recall(std::move(scan)); }
-Status MappingService::recall(Visit visit) { return pipeline_->recall(std::move(visit)); }
-void MappingService::resume() { pipeline_->resume(); }
-std::shared_ptr<const MapState> MappingService::state() const { return pipeline_->state(); }
-const Experience& MappingService::experience() const { return pipeline_->experience(); }
-const HypothesisTree& MappingService::tree() const { return pipeline_->tree(); }
-const OccupancyGrid& MappingService::local_map() const { return pipeline_->local_map(); }
+void MappingService::recall(PerceivedScan scan) {
+  pipeline_->recall(std::move(scan));
+}
+Status MappingService::recall(Visit visit) {
+  return pipeline_->recall(std::move(visit));
+}
+void MappingService::resume() {
+  pipeline_->resume();
+}
+std::shared_ptr<const MapState> MappingService::state() const {
+  return pipeline_->state();
+}
+const Experience& MappingService::experience() const {
+  return pipeline_->experience();
+}
+const HypothesisTree& MappingService::tree() const {
+  return pipeline_->tree();
+}
+const OccupancyGrid& MappingService::local_map() const {
+  return pipeline_->local_map();
+}
 const JoinerCounters& MappingService::joiner_counters() const {
   return pipeline_->joiner_counters();
 }
 const PlaceDetectorReport& MappingService::place_report() const {
   return pipeline_->place_report();
 }
-GaussianPose MappingService::T_global_robot() const { return pipeline_->T_global_robot(); }
+GaussianPose MappingService::T_global_robot() const {
+  return pipeline_->T_global_robot();
+}
 
 }  // namespace cairn

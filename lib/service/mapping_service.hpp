@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
+#include "sensing/odometry.hpp"
+#include "sensing/scan_joiner.hpp"
 #include "service/experience.hpp"
 #include "service/map_state.hpp"
 #include "service/options.hpp"
-#include "sensing/odometry.hpp"
-#include "sensing/scan_joiner.hpp"
 #include "topology/hypothesis_tree.hpp"
 
 namespace cairn {
@@ -19,7 +19,7 @@ namespace cairn {
 struct Updates {
   std::vector<PerceivedScan> scans;
   std::vector<PlaceEvent> events;
-  std::vector<Visit> visits;            ///< Closed ones, which extended the map.
+  std::vector<Visit> visits;             ///< Closed ones, which extended the map.
   std::vector<ExtendReport> extensions;  ///< One for each visit but the very first.
   bool is_map_changed = false;
 };

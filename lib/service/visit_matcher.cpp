@@ -66,10 +66,9 @@ std::vector<TravelConstraint> VisitMatcher::constraints(const TopologicalMap& ma
     const VisitId from{i};
     const VisitId to{i + 1};
     const Travel& travel = experience_.travels()[from.index()];
-    constraints.push_back(
-        {map.at_visit(from).place.value, map.at_visit(to).place.value,
-         compounded(compounded(T_place_visit(map, from), travel.T_from_to),
-                    inverted(T_place_visit(map, to)))});
+    constraints.push_back({map.at_visit(from).place.value, map.at_visit(to).place.value,
+                           compounded(compounded(T_place_visit(map, from), travel.T_from_to),
+                                      inverted(T_place_visit(map, to)))});
   }
   return constraints;
 }

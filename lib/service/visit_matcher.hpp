@@ -12,8 +12,8 @@
 
 namespace cairn {
 
-/// Compares visits by their local maps, each pair under each alignment once, and turns a topological
-/// map into what the layout needs to know of it.
+/// Compares visits by their local maps, each pair under each alignment once, and turns a
+/// topological map into what the layout needs to know of it.
 class VisitMatcher {
  public:
   /// @param experience must outlive this object
@@ -24,12 +24,14 @@ class VisitMatcher {
   /// @pre both visits have the same number of gateways, and are in the experience
   [[nodiscard]] const Recognition& compare(VisitId known, VisitId visit, int shift) const;
 
-  /// Natural log of how much better "the visit was to the known one's place" explains the local maps
-  /// and the dead reckoning between the two visits than "it was elsewhere". Minus infinity where dead
-  /// reckoning would have to be wrong by more than kRefutedAt_sigmas: then the maps are not compared.
+  /// Natural log of how much better "the visit was to the known one's place" explains the local
+  /// maps and the dead reckoning between the two visits than "it was elsewhere". Minus infinity
+  /// where dead reckoning would have to be wrong by more than kRefutedAt_sigmas: then the maps are
+  /// not compared.
   [[nodiscard]] double log_likelihood_ratio(VisitId known, VisitId visit, int shift) const;
 
-  /// The place frame of a visit in the frame of the place it was to: that of the place's first visit.
+  /// The place frame of a visit in the frame of the place it was to: that of the place's first
+  /// visit.
   [[nodiscard]] GaussianPose T_place_visit(const TopologicalMap& map, VisitId visit) const;
 
   /// F(lambda) of every travel, between the places that the map says they joined.

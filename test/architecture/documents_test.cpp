@@ -20,9 +20,9 @@ namespace fs = std::filesystem;
 const fs::path kSource = CAIRN_SOURCE_DIR;
 
 /// The endings that say the unit of a floating-point field, or that it has none.
-const std::vector<std::string> kUnits = {"_m",  "_rad", "_s",     "_ms",           "_mb",
-                                         "_share", "_m2_rad2", "_m_rad", "probability", "posterior",
-                                         "_p50", "_max"};
+const std::vector<std::string> kUnits = {"_m",          "_rad",      "_s",       "_ms",
+                                         "_mb",         "_share",    "_m2_rad2", "_m_rad",
+                                         "probability", "posterior", "_p50",     "_max"};
 
 bool says_its_unit(const std::string& field) {
   return std::any_of(kUnits.begin(), kUnits.end(), [&field](const std::string& unit) {
@@ -34,7 +34,8 @@ bool says_its_unit(const std::string& field) {
 TEST(Messages, EveryFloatingFieldSaysItsUnit) {
   int checked = 0;
   for (const std::string package : {"cairn_lcm", "cairn_journal"}) {
-    for (const fs::directory_entry& entry : fs::directory_iterator(kSource / "lcmtypes" / package)) {
+    for (const fs::directory_entry& entry :
+         fs::directory_iterator(kSource / "lcmtypes" / package)) {
       std::istringstream text(test::content_of(entry.path()));
       for (std::string line; std::getline(text, line);) {
         std::istringstream words(line);
@@ -57,8 +58,7 @@ TEST(Messages, UtimeComesFirstInEveryMessageOnTheBus) {
   for (const std::string name :
        {"laser_scan_t", "odometry_t", "sonar_ring_t", "status_t", "pose_t", "place_event_t",
         "topology_t", "hypotheses_t", "map_delta_t", "snapshot_chunk_t", "rpc_header_t"}) {
-    const std::string text =
-        test::content_of(kSource / "lcmtypes/cairn_lcm" / (name + ".lcm"));
+    const std::string text = test::content_of(kSource / "lcmtypes/cairn_lcm" / (name + ".lcm"));
     const auto first = text.find("int64_t utime;");
     ASSERT_NE(first, std::string::npos) << name;
     const auto body = text.find('{');

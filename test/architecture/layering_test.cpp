@@ -21,12 +21,14 @@ struct Layer {
   std::set<std::string> may_use;
 };
 
-fs::path source() { return CAIRN_SOURCE_DIR; }
+fs::path source() {
+  return CAIRN_SOURCE_DIR;
+}
 
 /// Third-party headers that a layer must be allowed by name, by the first word of their path.
-const std::set<std::string> kGuarded = {"Eigen", "ceres", "nlohmann", "spdlog", "sqlite3.h", "lcm",
-                                        "thread", "mutex", "fstream",  "iostream", "filesystem",
-                                        "zstd.h", "png.h", "CLI", "systemd", "random_device"};
+const std::set<std::string> kGuarded = {
+    "Eigen",   "ceres",    "nlohmann",   "spdlog", "sqlite3.h", "lcm", "thread",  "mutex",
+    "fstream", "iostream", "filesystem", "zstd.h", "png.h",     "CLI", "systemd", "random_device"};
 
 std::vector<std::string> words_of(const std::string& text) {
   std::istringstream stream(text);
@@ -101,10 +103,9 @@ TEST(Architecture, EveryIncludeOfLibGoesDownTheLayers) {
     const auto layer = layers.find(file.begin()->string());
     ASSERT_NE(layer, layers.end()) << file << " is in no layer";
     for (const Include& include : includes_of(path)) {
-      const bool allowed = include.is_ours
-                               ? layer->second.may_include.count(include.folder) == 1
-                               : kGuarded.count(include.folder) == 0 ||
-                                     layer->second.may_use.count(include.folder) == 1;
+      const bool allowed = include.is_ours ? layer->second.may_include.count(include.folder) == 1
+                                           : kGuarded.count(include.folder) == 0 ||
+                                                 layer->second.may_use.count(include.folder) == 1;
       EXPECT_TRUE(allowed) << file << ": " << include.line;
     }
   }

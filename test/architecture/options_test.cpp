@@ -34,7 +34,9 @@ TEST(Options, TheTableIsInTheDocumentation) {
       << "renew it: cairnd --dump-options";
 }
 
-TEST(Options, DefaultsAreSound) { EXPECT_TRUE(validate(DaemonOptions()).ok()); }
+TEST(Options, DefaultsAreSound) {
+  EXPECT_TRUE(validate(DaemonOptions()).ok());
+}
 
 TEST(Options, TheConfigurationFileReadsBackAsTheDefaults) {
   const Result<DaemonOptions> options =

@@ -7,8 +7,8 @@
 
 namespace cairn::test {
 
-/// A grid drawn as text, top line = largest y: '#' wall, '.' or ' ' free, '?' unknown. The lower left
-/// corner of the drawing is the origin.
+/// A grid drawn as text, top line = largest y: '#' wall, '.' or ' ' free, '?' unknown. The lower
+/// left corner of the drawing is the origin.
 inline OccupancyGrid grid_of(const std::vector<std::string>& lines, double cell_m) {
   GridGeometry geometry;
   geometry.cell_m = cell_m;
@@ -20,8 +20,8 @@ inline OccupancyGrid grid_of(const std::vector<std::string>& lines, double cell_
     for (int x = 0; x < geometry.width; ++x) {
       const char drawn = line.at(static_cast<std::size_t>(x));
       if (drawn != '?') {
-        grid.log_odds({x, y}) = drawn == '#' ? OccupancyGrid::LogOdds{300}
-                                             : OccupancyGrid::LogOdds{-300};
+        grid.log_odds({x, y}) =
+            drawn == '#' ? OccupancyGrid::LogOdds{300} : OccupancyGrid::LogOdds{-300};
       }
     }
   }

@@ -5,9 +5,8 @@
 #include <sstream>
 #include <string>
 
-#include <stdlib.h>
-
 #include <gtest/gtest.h>
+#include <stdlib.h>
 
 namespace cairn::test {
 

@@ -17,8 +17,8 @@ inline std::filesystem::path recorded_data(const std::string& file) {
 }  // namespace cairn::test
 
 /// Reports a test as skipped where a recorded file is absent.
-#define CAIRN_NEED_DATA(file)                                          \
-  if (!std::filesystem::exists(::cairn::test::recorded_data(file))) {  \
-    GTEST_SKIP() << "no " << ::cairn::test::recorded_data(file);       \
-  }                                                                    \
+#define CAIRN_NEED_DATA(file)                                         \
+  if (!std::filesystem::exists(::cairn::test::recorded_data(file))) { \
+    GTEST_SKIP() << "no " << ::cairn::test::recorded_data(file);      \
+  }                                                                   \
   static_assert(true)
