@@ -12,6 +12,7 @@ JOBS ?= $(shell nproc)
 .PHONY: demo test build setup package clean
 
 demo: PRESET = release
+demo: TARGETS = --target cairnd cairn_program cairn-sim cairn-hub
 demo: build
 	scripts/demo build/release
 
@@ -19,9 +20,9 @@ test: build
 	ctest --preset $(PRESET) -j $(JOBS)
 
 build: setup
-	@[ -f build/$(PRESET)/build.ninja ] || cmake --preset $(PRESET) >build-$(PRESET).log 2>&1 || { cat build-$(PRESET).log; exit 1; }
+	@cmake --preset $(PRESET) >build-$(PRESET).log 2>&1 || { cat build-$(PRESET).log; exit 1; }
 	@rm -f build-$(PRESET).log
-	cmake --build --preset $(PRESET) -j $(JOBS)
+	cmake --build --preset $(PRESET) -j $(JOBS) $(TARGETS)
 
 setup:
 	@scripts/setup

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
@@ -38,23 +39,20 @@ class BoundedQueue {
   std::optional<T> pop() {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [this] { return is_closed_ || !elements_.empty(); });
-    if (elements_.empty()) {
-      return std::nullopt;
-    }
-    std::optional<T> element(std::move(elements_.front()));
-    elements_.pop_front();
-    return element;
+    return take_front();
+  }
+
+  /// As pop(), but waits no longer than this; see is_over().
+  std::optional<T> pop_within(std::chrono::duration<double> patience) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait_for(lock, patience, [this] { return is_closed_ || !elements_.empty(); });
+    return take_front();
   }
 
   /// Takes an element if there is one.
   std::optional<T> try_pop() {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (elements_.empty()) {
-      return std::nullopt;
-    }
-    std::optional<T> element(std::move(elements_.front()));
-    elements_.pop_front();
-    return element;
+    return take_front();
   }
 
   /// No more elements come; what waits can still be taken.
@@ -66,6 +64,11 @@ class BoundedQueue {
     changed_.notify_all();
   }
 
+  /// Closed, and drained.
+  [[nodiscard]] bool is_over() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return is_closed_ && elements_.empty();
+  }
   [[nodiscard]] std::size_t size() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return elements_.size();
@@ -76,6 +79,15 @@ class BoundedQueue {
   }
 
  private:
+  std::optional<T> take_front() {
+    if (elements_.empty()) {
+      return std::nullopt;
+    }
+    std::optional<T> element(std::move(elements_.front()));
+    elements_.pop_front();
+    return element;
+  }
+
   const std::size_t capacity_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;

@@ -39,8 +39,12 @@ std::unique_ptr<Engine> MappingThread::stop() {
 void MappingThread::run() {
   // What the journal held is published before the first reading comes.
   report({}, 0.0);
-  while (std::optional<Order> order = orders_.pop()) {
-    if (auto* const documents = std::get_if<Documents>(&*order)) {
+  while (!orders_.is_over()) {
+    std::optional<Order> order =
+        orders_.pop_within(std::chrono::duration<double>(options_.pause_after_s));
+    if (!order) {
+      finish_pause();
+    } else if (auto* const documents = std::get_if<Documents>(&*order)) {
       engine_->store(*documents);
     } else {
       carry_out(std::get<Reading>(*std::move(order)));
@@ -51,7 +55,16 @@ void MappingThread::run() {
   engine_->commit();
 }
 
+/// Readings have stopped: what waits for a later one is taken up now.
+void MappingThread::finish_pause() {
+  if (!has_paused_) {
+    has_paused_ = true;
+    report(engine_->finish(), 0.0);
+  }
+}
+
 void MappingThread::carry_out(Reading reading) {
+  has_paused_ = false;
   const Clock::time_point start = Clock::now();
   const Updates updates = engine_->take(std::move(reading));
   const std::chrono::duration<double, std::milli> spent = Clock::now() - start;

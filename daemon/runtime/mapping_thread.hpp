@@ -42,6 +42,7 @@ class MappingThread {
     double commit_every_s = 1.0;
     double state_every_s = 1.0;  ///< Besides one for every change of the map.
     int tile_cells = 64;         ///< Of the local map's tiles.
+    double pause_after_s = 2.0;  ///< Without readings for so long, the input has paused.
   };
 
   /// @param wakeup is signalled for every report; must outlive this object
@@ -70,6 +71,7 @@ class MappingThread {
   using Order = std::variant<Reading, Documents>;
   void run();
   void carry_out(Reading reading);
+  void finish_pause();
   void commit_when_due();
   void report(const Updates& updates, double update_ms);
 
@@ -81,6 +83,7 @@ class MappingThread {
   std::atomic<std::int64_t> progress_{0};
   std::chrono::steady_clock::time_point last_commit_;
   std::chrono::steady_clock::time_point last_state_;
+  bool has_paused_ = true;  ///< Nothing has come since the last pause was seen to.
   std::thread thread_;
 };
 

@@ -2,10 +2,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "grid/ray_trace.hpp"
 
 namespace cairn {
+namespace {
+
+/// How far a beam without return is free. One or a few such beams between two that hit something are
+/// glass or a dark surface, not a hole: they are free no farther than their neighbours.
+double free_range_m(const std::vector<float>& ranges_m, std::size_t beam, double reach_m) {
+  constexpr std::size_t kNeighbours = 3;
+  const auto nearest_return_m = [&](bool ahead) {
+    for (std::size_t step = 1; step <= kNeighbours; ++step) {
+      if (ahead ? beam + step >= ranges_m.size() : step > beam) {
+        break;
+      }
+      const float range_m = ranges_m[ahead ? beam + step : beam - step];
+      if (std::isfinite(range_m)) {
+        return static_cast<double>(range_m);
+      }
+    }
+    return std::numeric_limits<double>::infinity();
+  };
+  const double before_m = nearest_return_m(false);
+  const double after_m = nearest_return_m(true);
+  const bool is_between_returns = std::isfinite(before_m) && std::isfinite(after_m);
+  return is_between_returns ? std::min({before_m, after_m, reach_m}) : reach_m;
+}
+
+}  // namespace
 
 ScanFootprint::ScanFootprint(double cell_m, double draw_range_m) : draw_range_m_(draw_range_m) {
   const int reach_cells = static_cast<int>(std::ceil(draw_range_m / cell_m)) + 2;
@@ -28,7 +54,9 @@ const std::vector<TouchedCell>& ScanFootprint::of(const LaserScan& scan,
     }
     const double bearing_rad = T_global_laser.theta() + static_cast<double>(scan.bearings_rad[i]);
     const Vector2d direction(std::cos(bearing_rad), std::sin(bearing_rad));
-    trace(laser, laser + std::min(range_m, reach_m) * direction, range_m <= reach_m);
+    const double free_m =
+        std::isinf(range_m) ? free_range_m(scan.ranges_m, i, reach_m) : std::min(range_m, reach_m);
+    trace(laser, laser + free_m * direction, range_m <= reach_m);
   }
   touched_.clear();
   for (const Cell& cell : marked_) {

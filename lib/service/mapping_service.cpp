@@ -173,11 +173,19 @@ class MappingService::Pipeline {
     updates->is_map_changed = true;
   }
 
-  /// After a restart the detector sees the last visit's place once more.
+  /// Whether this is the last visit, told once more: after a restart the detector sees its place
+  /// again, and so it does where the input paused while the robot was there.
   [[nodiscard]] bool is_known(const PlaceVisit& visit) const {
-    return !experience_.visits().empty() && resumed_ &&
-           visit.entered <= experience_.visits().back().perceived.left &&
-           visit.left <= experience_.visits().back().perceived.left;
+    if (experience_.visits().empty()) {
+      return false;
+    }
+    const PlaceVisit& last = experience_.visits().back().perceived;
+    const bool was_told_before = resumed_ && visit.left <= last.left;
+    const bool has_not_left =
+        last.departure_gateway < 0 &&
+        (visit.T_lpm_place.translation() - last.T_lpm_place.translation()).norm() <
+            options_.place.same_spot_m;
+    return was_told_before || has_not_left;
   }
 
   void lay_out() {

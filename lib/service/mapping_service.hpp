@@ -48,7 +48,8 @@ class MappingService {
   /// @pre the value is valid
   Updates absorb(const OdometrySample& sample);
   Updates absorb(LaserScan scan);
-  /// The input has ended: whatever waits is taken up, and the visit that is still open.
+  /// The input has ended or paused: whatever waits is taken up, and the visit that is still open.
+  /// More input may come; a robot that has stayed where it was is not at a new visit then.
   Updates finish();
 
   /// Takes the journal up again, in its order; afterwards `resume` once. Then everything goes on as

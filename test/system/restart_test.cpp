@@ -1,0 +1,74 @@
+// What is journalled survives: a daemon that is ended in the middle of a tour goes on from its map
+// file with the same places, hypotheses and frame.
+
+#include <csignal>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "process.hpp"
+
+namespace cairn::test {
+namespace {
+
+using nlohmann::json;
+
+class RestartTest : public ::testing::TestWithParam<int> {
+ protected:
+  [[nodiscard]] std::string map() const { return (folder_ / "a.cairn").string(); }
+  json asked(const std::string& what, const std::string& url) {
+    const Finished result =
+        run({CAIRN, what, "--json", "--lcm-url", url, "--timeout", "10"}, folder_);
+    return json::parse(result.output, nullptr, false);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_P(RestartTest, GoesOnWithTheSamePlacesHypothesesAndFrame) {
+  const Hub hub(folder_);
+  json places_before;
+  json hypotheses_before;
+  {
+    Process daemon({CAIRND, "--lcm-url", hub.url(), "--map", map()}, folder_);
+    ASSERT_TRUE(eventually([&] { return asked("status", hub.url()).is_object(); }));
+    const Finished sim = run({CAIRN_SIM, CAIRN_SOURCE_DIR "/config/worlds/square.txt", "--tour",
+                              "loop", "--speed", "20", "--lcm-url", hub.url()},
+                             folder_);
+    ASSERT_EQ(sim.status, 0) << sim.errors;
+    ASSERT_TRUE(eventually([&] {
+      const json status = asked("status", hub.url());
+      return status.is_object() && status.value("scans_received", 0) > 0 &&
+             status.value("scans_mapped", 0) >= status.value("scans_received", 1) - 2;
+    }));
+    places_before = asked("places", hub.url());
+    hypotheses_before = asked("hypotheses", hub.url());
+    daemon.send(GetParam());
+    static_cast<void>(daemon.wait(std::chrono::seconds(10)));
+  }
+  ASSERT_TRUE(places_before.is_object() || places_before.is_array());
+
+  Process daemon({CAIRND, "--lcm-url", hub.url(), "--map", map()}, folder_);
+  ASSERT_TRUE(eventually([&] { return asked("status", hub.url()).is_object(); }))
+      << daemon.errors();
+  for (json* document : {&places_before, &hypotheses_before}) {
+    document->erase("boot_id");
+    document->erase("utime");
+  }
+  json places_after = asked("places", hub.url());
+  json hypotheses_after = asked("hypotheses", hub.url());
+  for (json* document : {&places_after, &hypotheses_after}) {
+    document->erase("boot_id");
+    document->erase("utime");
+  }
+  EXPECT_EQ(places_after, places_before);
+  EXPECT_EQ(hypotheses_after, hypotheses_before);
+}
+
+INSTANTIATE_TEST_SUITE_P(After, RestartTest, ::testing::Values(SIGTERM, SIGKILL),
+                         [](const ::testing::TestParamInfo<int>& signal) {
+                           return signal.param == SIGTERM ? "Sigterm" : "Kill9";
+                         });
+
+}  // namespace
+}  // namespace cairn::test

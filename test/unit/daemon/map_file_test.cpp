@@ -1,0 +1,128 @@
+#include "storage/map_file.hpp"
+
+#include <filesystem>
+
+#include <sqlite3.h>
+
+#include <gmock/gmock.h>
+
+#include "storage/journal_codec.hpp"
+#include "support/experience.hpp"
+#include "support/files.hpp"
+
+namespace cairn {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class MapFileTest : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::string path(const std::string& name = "a.cairn") const {
+    return (folder_ / name).string();
+  }
+
+  static void write_journal(const std::string& file) {
+    Result<MapFile> map = MapFile::open(file);
+    ASSERT_TRUE(map.ok()) << map.error().message;
+    for (int i = 0; i < 3; ++i) {
+      ASSERT_TRUE(map->append(test::scan_at(i, Pose2(i, 0, 0), Pose2(1, 0, 0))).ok());
+    }
+    ASSERT_TRUE(map->append(Visit{test::corner_at({1, 0}), 1}).ok());
+    ASSERT_TRUE(map->append(test::scan_at(3, Pose2(3, 0, 0), Pose2(1, 0, 0))).ok());
+    ASSERT_TRUE(map->close().ok());
+  }
+
+  /// "s" for a scan, "v" for a visit, in the order read; the error's text at the end, if any.
+  static std::vector<std::string> journal_of(const std::string& file) {
+    std::vector<std::string> entries;
+    Result<MapFile> map = MapFile::open(file);
+    if (!map) {
+      return {map.error().message};
+    }
+    const Status status = map->read_journal(
+        [&](const PerceivedScan&) { entries.emplace_back("s"); },
+        [&](const Visit&) {
+          entries.emplace_back("v");
+          return Status();
+        });
+    if (!status) {
+      entries.push_back(status.error().message);
+    }
+    return entries;
+  }
+
+  static void run_sql(const std::string& file, const std::string& sql) {
+    sqlite3* database = nullptr;
+    ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
+    sqlite3_close(database);
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(MapFileTest, GivesTheJournalBackInItsOrder) {
+  write_journal(path());
+  EXPECT_THAT(journal_of(path()), ElementsAre("s", "s", "s", "v", "s"));
+}
+
+TEST_F(MapFileTest, TheSameExperienceGivesTheSameBytes) {
+  write_journal(path("a.cairn"));
+  write_journal(path("b.cairn"));
+  EXPECT_EQ(test::content_of(path("a.cairn")), test::content_of(path("b.cairn")));
+  EXPECT_FALSE(std::filesystem::exists(path("a.cairn-wal")));
+}
+
+TEST_F(MapFileTest, IsNamedByItsFirstScanAndKeepsTheName) {
+  write_journal(path());
+  EXPECT_EQ(MapFile::open(path())->map_id(), 1'000'000);
+}
+
+TEST_F(MapFileTest, WhatWasRolledBackCanBeWrittenAgain) {
+  Result<MapFile> map = MapFile::open(path());
+  const PerceivedScan scan = test::scan_at(0, Pose2(), Pose2());
+  ASSERT_TRUE(map->append(scan).ok());
+  map->roll_back();
+  EXPECT_EQ(map->scan_count(), 0);
+  ASSERT_TRUE(map->append(scan).ok());
+  ASSERT_TRUE(map->commit().ok());
+  EXPECT_EQ(map->scan_count(), 1);
+}
+
+TEST_F(MapFileTest, ADamagedRowEndsTheJournalWithItsName) {
+  write_journal(path());
+  run_sql(path(), "UPDATE scan SET bytes = x'00112233' WHERE number = 2");
+  const std::vector<std::string> entries = journal_of(path());
+  ASSERT_EQ(entries.size(), 3U);
+  EXPECT_THAT(entries.back(), HasSubstr("scan 2 is damaged"));
+}
+
+TEST_F(MapFileTest, AMissingRowIsTold) {
+  write_journal(path());
+  run_sql(path(), "DELETE FROM scan WHERE number = 1");
+  EXPECT_THAT(journal_of(path()).back(), HasSubstr("scan 1 is damaged: the row is missing"));
+}
+
+TEST_F(MapFileTest, RefusesWhatIsNoMap) {
+  test::write_file(path("text"), "this is no database, and longer than a header of one: .........");
+  EXPECT_EQ(MapFile::open(path("text")).error().code, ErrorCode::kMalformed);
+  run_sql(path("other"), "CREATE TABLE cats(name)");
+  EXPECT_THAT(MapFile::open(path("other")).error().message, HasSubstr("no cairn map"));
+}
+
+TEST_F(MapFileTest, RefusesANewerFormat) {
+  write_journal(path());
+  run_sql(path(), "UPDATE meta SET value = '99' WHERE key = 'format_version'");
+  EXPECT_THAT(MapFile::open(path()).error().message, HasSubstr("map format 99"));
+}
+
+TEST_F(MapFileTest, SaysThatAPathCannotBeWritten) {
+  const Result<MapFile> map = MapFile::open(path("no/such/folder/a.cairn"));
+  ASSERT_FALSE(map.ok());
+  EXPECT_EQ(map.error().code, ErrorCode::kUnavailable);
+  EXPECT_THAT(map.error().message, HasSubstr("there is no folder"));
+}
+
+}  // namespace
+}  // namespace cairn
