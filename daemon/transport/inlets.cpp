@@ -17,7 +17,8 @@ constexpr std::size_t kMostRemarks = 100;
 
 std::vector<LaserChannelOptions> usual_lasers() {
   std::vector<LaserChannelOptions> lasers;
-  for (const char* const channel : {"LASER", "LIDAR", "SKIRT_FRONT", "SENSOR_LASER_FRONT_6DOF"}) {
+  for (const char* const channel :
+       {"LASER", "LIDAR", "RPLIDAR_LASER", "SKIRT_FRONT", "SENSOR_LASER_FRONT_6DOF"}) {
     lasers.emplace_back().channel = channel;
   }
   return lasers;

@@ -2,12 +2,11 @@
 
 #include <csignal>
 
-#include <gmock/gmock.h>
-
 #include <cairn_lcm/laser_scan_t.hpp>
 #include <cairn_lcm/odometry_t.hpp>
 #include <cairn_lcm/pose_t.hpp>
 #include <cairn_lcm/status_t.hpp>
+#include <gmock/gmock.h>
 
 #include "process.hpp"
 #include "wire/bus.hpp"
@@ -85,7 +84,8 @@ class RunningDaemonTest : public DaemonTest {
     EXPECT_TRUE(bus.ok());
     bus_ = *std::move(bus);
     EXPECT_TRUE(bus_->subscribe("CAIRN_STATUS", 64, [this](const wire::Received& received) {
-      if (const auto status = wire::decode<cairn_lcm::status_t>(received.bytes, received.size, 4096)) {
+      if (const auto status =
+              wire::decode<cairn_lcm::status_t>(received.bytes, received.size, 4096)) {
         status_ = *status;
         ++statuses_;
       }
@@ -154,7 +154,7 @@ TEST_F(RunningDaemonTest, CountsHostileMessagesAndGoesOn) {
   bus_->publish("LASER", wire::Bytes(64, 0x11));  // A type nobody knows.
   scan.ranges_m.clear();
   scan.num_ranges = 0;
-  bus_->publish("LASER", scan);  // Zero beams.
+  bus_->publish("LASER", scan);                                    // Zero beams.
   bus_->publish("LASER", room_scan(now_utime() + 3'600'000'000));  // Far ahead of the clock.
   bus_->publish("CAIRN_REQUEST_PLAN", wire::Bytes{1, 2, 3});
 
@@ -171,13 +171,13 @@ TEST_F(RunningDaemonTest, NoticesAnotherDaemonOnTheBus) {
   Process second({CAIRND, "--lcm-url", hub_.url(), "--map", (folder_ / "b.cairn").string()},
                  folder_);
   EXPECT_TRUE(heard([this] { return status_.foreign_daemons > 0; }));
-  EXPECT_TRUE(eventually(
-      [this] { return daemon_.errors().find("another cairnd") != std::string::npos; }));
+  EXPECT_TRUE(
+      eventually([this] { return daemon_.errors().find("another cairnd") != std::string::npos; }));
 }
 
 TEST_F(RunningDaemonTest, AnswersAPlanItCannotMakeWithTheReason) {
-  const Finished result = run(
-      {CAIRN, "path", "--to", "3", "--lcm-url", hub_.url(), "--timeout", "10"}, folder_);
+  const Finished result =
+      run({CAIRN, "path", "--to", "3", "--lcm-url", hub_.url(), "--timeout", "10"}, folder_);
   EXPECT_NE(result.status, 0);
   EXPECT_NE(result.status, 69) << result.errors;
 }

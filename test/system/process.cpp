@@ -49,7 +49,9 @@ Process::~Process() {
   }
 }
 
-void Process::send(int signal) const { kill(pid_, signal); }
+void Process::send(int signal) const {
+  kill(pid_, signal);
+}
 
 bool Process::is_running() {
   if (status_ >= 0) {

@@ -99,16 +99,20 @@ TEST_P(RecordedLogTest, IsReadWithoutError) {
   EXPECT_GT(exported("a").size(), 1000U);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Every, RecordedLogTest,
-    ::testing::Values("carmen/aces/aces.clf", "carmen/csail/csail.clf",
-                      "carmen/seattle/seattle.clf", "laser/cmu_wean/robotdata1.clf",
-                      "laser/cmu_wean/robotdata5.clf", "laser/duke_loop5/loop5.clf",
-                      "laser/mines/exp1.clf", "lcm/mbot_convex.log",
-                      "lcm/mbot_drive_square_truth.log"),
-    [](const ::testing::TestParamInfo<const char*>& log) {
-      return std::filesystem::path(log.param).stem().string();
-    });
+INSTANTIATE_TEST_SUITE_P(Every,
+                         RecordedLogTest,
+                         ::testing::Values("carmen/aces/aces.clf",
+                                           "carmen/csail/csail.clf",
+                                           "carmen/seattle/seattle.clf",
+                                           "laser/cmu_wean/robotdata1.clf",
+                                           "laser/cmu_wean/robotdata5.clf",
+                                           "laser/duke_loop5/loop5.clf",
+                                           "laser/mines/exp1.clf",
+                                           "lcm/mbot_convex.log",
+                                           "lcm/mbot_drive_square_truth.log"),
+                         [](const ::testing::TestParamInfo<const char*>& log) {
+                           return std::filesystem::path(log.param).stem().string();
+                         });
 
 }  // namespace
 }  // namespace cairn::test

@@ -38,8 +38,9 @@ TEST_P(RestartTest, GoesOnWithTheSamePlacesHypothesesAndFrame) {
     ASSERT_EQ(sim.status, 0) << sim.errors;
     ASSERT_TRUE(eventually([&] {
       const json status = asked("status", hub.url());
+      // The input has paused for long enough that the last visit is closed.
       return status.is_object() && status.value("scans_received", 0) > 0 &&
-             status.value("scans_mapped", 0) >= status.value("scans_received", 1) - 2;
+             status.value("scan_age_ms", 0) > 4000;
     }));
     places_before = asked("places", hub.url());
     hypotheses_before = asked("hypotheses", hub.url());
@@ -65,7 +66,9 @@ TEST_P(RestartTest, GoesOnWithTheSamePlacesHypothesesAndFrame) {
   EXPECT_EQ(hypotheses_after, hypotheses_before);
 }
 
-INSTANTIATE_TEST_SUITE_P(After, RestartTest, ::testing::Values(SIGTERM, SIGKILL),
+INSTANTIATE_TEST_SUITE_P(After,
+                         RestartTest,
+                         ::testing::Values(SIGTERM, SIGKILL),
                          [](const ::testing::TestParamInfo<int>& signal) {
                            return signal.param == SIGTERM ? "Sigterm" : "Kill9";
                          });

@@ -1,5 +1,5 @@
-// The simulated tour against its ground truth: in the preferred hypothesis every true loop is closed
-// and no false one.
+// The simulated tour against its ground truth: in the preferred hypothesis every true loop is
+// closed and no false one.
 
 #include <cmath>
 #include <map>
@@ -67,9 +67,8 @@ TEST_P(TourTest, ClosesEveryTrueLoopAndNoFalseOne) {
     std::string nearest;
     double least_m = 1e9;
     for (const auto& [name, junction] : junctions) {
-      const double distance_m =
-          std::hypot(place["x_m"].get<double>() + start.x_m - junction.x_m,
-                     place["y_m"].get<double>() + start.y_m - junction.y_m);
+      const double distance_m = std::hypot(place["x_m"].get<double>() + start.x_m - junction.x_m,
+                                           place["y_m"].get<double>() + start.y_m - junction.y_m);
       if (distance_m < least_m) {
         least_m = distance_m;
         nearest = name;
