@@ -14,8 +14,9 @@ std::vector<TravelConstraint> ring(int places) {
   for (int i = 0; i < places; ++i) {
     const double wrong_m = 0.05 * std::sin(7.0 * i);
     const Matrix3d covariance = Eigen::Vector3d(0.01, 0.01, 0.0004).asDiagonal();
-    travels.push_back(
-        {i, (i + 1) % places, {Pose2(5.0 + wrong_m, wrong_m, turn_rad + 0.1 * wrong_m), covariance}});
+    travels.push_back({i,
+                       (i + 1) % places,
+                       {Pose2(5.0 + wrong_m, wrong_m, turn_rad + 0.1 * wrong_m), covariance}});
   }
   return travels;
 }

@@ -19,8 +19,8 @@ OccupancyGrid lattice(double side_m) {
     for (int x = 0; x < geometry.width; ++x) {
       const int nearest = std::min(distance_to_axis(x), distance_to_axis(y));
       if (nearest <= 21) {
-        grid.log_odds({x, y}) = nearest <= 20 ? OccupancyGrid::LogOdds{-300}
-                                              : OccupancyGrid::LogOdds{300};
+        grid.log_odds({x, y}) =
+            nearest <= 20 ? OccupancyGrid::LogOdds{-300} : OccupancyGrid::LogOdds{300};
       }
     }
   }

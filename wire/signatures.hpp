@@ -15,6 +15,7 @@ class grid_map_t;
 class hypotheses_t;
 class laser_scan_t;
 class map_delta_t;
+class name_request_t;
 class odometry_t;
 class place_event_t;
 class place_t;
@@ -67,6 +68,7 @@ CAIRN_SIGNATURE(cairn_lcm::hypotheses_t,
                 "q q q q q q q q s i q[9] q[9] d[9] d[9] i[9] i[9] i[9] i[9]");
 CAIRN_SIGNATURE(cairn_lcm::laser_scan_t, "q d d d d i f[5]");
 CAIRN_SIGNATURE(cairn_lcm::map_delta_t, "q q q i q q d i i i i i b[11]");
+CAIRN_SIGNATURE(cairn_lcm::name_request_t, CAIRN_RPC_HEADER "q s");
 CAIRN_SIGNATURE(cairn_lcm::odometry_t, "q d d d");
 CAIRN_SIGNATURE(cairn_lcm::place_event_t, "q q q i s q q s");
 CAIRN_SIGNATURE(cairn_lcm::place_t, CAIRN_PLACE);

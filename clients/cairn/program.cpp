@@ -26,6 +26,7 @@ void add_commands(CLI::App& app, const Streams& streams) {
   add_places_command(app, streams);
   add_hypotheses_command(app, streams);
   add_map_command(app, streams);
+  add_name_command(app, streams);
   add_path_command(app, streams);
   add_export_command(app, streams);
   add_log_command(app, streams);

@@ -227,7 +227,8 @@ cairn_lcm::trajectory_t DaemonLink::trajectory() {
   return document<cairn_lcm::trajectory_t>(Request::TRAJECTORY, "trajectory");
 }
 
-cairn_lcm::plan_t DaemonLink::plan(cairn_lcm::plan_request_t request) {
+template <typename Request>
+cairn_lcm::plan_t DaemonLink::ask(const std::string& channel, Request request) {
   request.header.client_id = random_client_id();
   request.header.request_id = 1;
   inbox_->begin(request.header.client_id);
@@ -236,7 +237,7 @@ cairn_lcm::plan_t DaemonLink::plan(cairn_lcm::plan_request_t request) {
     const wire::RequestRetry::Step step = retry.step(steady_us());
     if (step == wire::RequestRetry::Step::kSend) {
       request.header.utime = now_utime();
-      bus_->publish("CAIRN_REQUEST_PLAN", request);
+      bus_->publish(channel, request);
     }
     if (step == wire::RequestRetry::Step::kGiveUp ||
         is_longer_than(options_.timeout_s, inbox_->heard_us)) {
@@ -255,6 +256,17 @@ cairn_lcm::plan_t DaemonLink::plan(cairn_lcm::plan_request_t request) {
       return *answer;
     }
   }
+}
+
+cairn_lcm::plan_t DaemonLink::plan(cairn_lcm::plan_request_t request) {
+  return ask("CAIRN_REQUEST_PLAN", std::move(request));
+}
+
+result_t DaemonLink::name_place(std::int64_t place, const std::string& name) {
+  cairn_lcm::name_request_t request{};
+  request.place = place;
+  request.name = name;
+  return ask("CAIRN_REQUEST_NAME", std::move(request)).result;
 }
 
 }  // namespace cairn::clients

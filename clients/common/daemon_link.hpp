@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include <cairn_lcm/name_request_t.hpp>
 #include <cairn_lcm/plan_request_t.hpp>
 #include <cairn_lcm/plan_t.hpp>
 #include <cairn_lcm/status_t.hpp>
@@ -46,6 +47,8 @@ class DaemonLink final : public MapSource {
   [[nodiscard]] cairn_lcm::status_t status();
   /// A way; the header is filled in here. The answer's result says if there is none.
   [[nodiscard]] cairn_lcm::plan_t plan(cairn_lcm::plan_request_t request);
+  /// Gives a place a name; an empty one takes it away.
+  [[nodiscard]] cairn_lcm::result_t name_place(std::int64_t place, const std::string& name);
 
   [[nodiscard]] wire::Bus& bus() { return *bus_; }
   /// Serves the bus for at most that long. Throws Failure(kNoService) when the bus is gone.
@@ -59,6 +62,8 @@ class DaemonLink final : public MapSource {
   void subscribe();
   [[nodiscard]] std::vector<std::uint8_t> fetch(std::int32_t what, const char* name);
   void wait_for(wire::DocumentFetch& fetch, const char* name);
+  template <typename Request>
+  [[nodiscard]] cairn_lcm::plan_t ask(const std::string& channel, Request request);
   template <typename Message>
   [[nodiscard]] Message document(std::int32_t what, const char* name);
 

@@ -90,7 +90,8 @@ class Daemon {
         publisher_(
             bus,
             new_boot_id(),
-            [this](const cairn_lcm::plan_request_t& request) { return order_plan(request); }),
+            [this](const cairn_lcm::plan_request_t& request) { return order_plan(request); },
+            [this](const cairn_lcm::name_request_t& request) { mapping_.name(request); }),
         inlets_(to_inlet_options(options),
                 {[this](LaserScan scan) { take(std::move(scan)); },
                  [this](OdometrySample sample) { take(sample); }, [](const SonarRing&) {}}) {}

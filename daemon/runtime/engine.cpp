@@ -1,7 +1,10 @@
 #include "runtime/engine.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
+
+#include "base/check.hpp"
 
 namespace cairn {
 namespace {
@@ -34,10 +37,51 @@ Status Engine::recall() {
   Status status =
       map_file_.read_journal([this](PerceivedScan scan) { service_->recall(std::move(scan)); },
                              [this](Visit visit) { return service_->recall(std::move(visit)); });
-  if (status) {
-    service_->resume();
+  if (!status) {
+    return status;
+  }
+  service_->resume();
+  const Result<std::map<std::int64_t, std::string>> names = map_file_.read_names();
+  if (!names) {
+    return names.error();
+  }
+  for (const auto& [visit, name] : *names) {
+    if (visit >= 0 && visit < map_file_.visit_count()) {
+      service_->name_place_of(VisitId{static_cast<std::int32_t>(visit)}, name);
+    }
   }
   return status;
+}
+
+Status Engine::name_place(std::int64_t place, const std::string& name) {
+  const bool is_text = name.size() <= 64 && std::none_of(name.begin(), name.end(), [](char c) {
+                         return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
+                       });
+  if (!is_text) {
+    return Error{ErrorCode::kInvalidValue, "a name has at most 64 bytes and no control characters"};
+  }
+  const std::shared_ptr<const MapState> state = service_->state();
+  if (place < 0 || place >= static_cast<std::int64_t>(state->places.size())) {
+    return Error{ErrorCode::kNotFound, "there is no place " + std::to_string(place)};
+  }
+  for (const MappedPlace& other : state->places) {
+    if (!name.empty() && other.name == name && other.id != place) {
+      return Error{ErrorCode::kInvalidValue,
+                   "'" + name + "' is the name of place " + std::to_string(other.id)};
+    }
+  }
+  const std::optional<VisitId> visit = service_->first_visit(static_cast<int>(place));
+  CAIRN_CHECK(visit.has_value());
+  commit();
+  if (!journal_trouble_.empty()) {
+    return Error{ErrorCode::kUnavailable, "the map file cannot be written: " + journal_trouble_};
+  }
+  if (Status status = map_file_.write_name(visit->value, name); !status) {
+    map_file_.roll_back();
+    return status;
+  }
+  service_->name_place_of(*visit, name);
+  return {};
 }
 
 Updates Engine::take(Reading reading) {

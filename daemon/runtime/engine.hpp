@@ -33,6 +33,10 @@ class Engine {
   /// The input has ended.
   Updates finish();
 
+  /// Gives a place of the best map a name, on the disk first. kInvalidValue for a name that is not
+  /// 1 to 64 bytes of text or is taken, kNotFound for a place that is not there.
+  Status name_place(std::int64_t place, const std::string& name);
+
   /// Puts on the disk what is not there yet.
   void commit();
   void store(const Documents& documents);

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include "runtime/planner.hpp"
+
 namespace cairn {
 namespace {
 
@@ -46,6 +48,8 @@ void MappingThread::run() {
       finish_pause();
     } else if (auto* const documents = std::get_if<Documents>(&*order)) {
       engine_->store(*documents);
+    } else if (auto* const request = std::get_if<cairn_lcm::name_request_t>(&*order)) {
+      carry_out(*request);
     } else {
       carry_out(std::get<Reading>(*std::move(order)));
     }
@@ -71,6 +75,20 @@ void MappingThread::carry_out(Reading reading) {
   if (!updates.scans.empty()) {
     report(updates, spent.count());
   }
+}
+
+void MappingThread::carry_out(const cairn_lcm::name_request_t& request) {
+  const Status status = engine_->name_place(request.place, request.name);
+  MappingReport report;
+  report.map_id = engine_->map_id();
+  report.joiner = engine_->service().joiner_counters();
+  report.journal_trouble = engine_->journal_trouble();
+  report.answer = to_result(request.header, status);
+  if (status) {
+    report.state = engine_->service().state();
+  }
+  reports_.push(std::move(report));
+  wakeup_.signal();
 }
 
 void MappingThread::commit_when_due() {

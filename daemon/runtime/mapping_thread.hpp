@@ -9,6 +9,9 @@
 #include <variant>
 #include <vector>
 
+#include <cairn_lcm/name_request_t.hpp>
+#include <cairn_lcm/result_t.hpp>
+
 #include "runtime/bounded_queue.hpp"
 #include "runtime/engine.hpp"
 #include "runtime/wakeup.hpp"
@@ -30,7 +33,8 @@ struct MappingReport {
   std::shared_ptr<const wire::ReplicatedGrid> local_map;  ///< Comes with a state.
   std::int64_t map_id = 0;
   JoinerCounters joiner;
-  double update_ms = 0.0;  ///< To take the reading in.
+  std::optional<cairn_lcm::result_t> answer;  ///< To a request to name a place.
+  double update_ms = 0.0;                     ///< To take the reading in.
   std::string journal_trouble;
 };
 
@@ -42,7 +46,7 @@ class MappingThread {
     double commit_every_s = 1.0;
     double state_every_s = 1.0;  ///< Besides one for every change of the map.
     int tile_cells = 64;         ///< Of the local map's tiles.
-    double pause_after_s = 2.0;  ///< Without readings for so long, the input has paused.
+    double pause_after_s = 5.0;  ///< Without readings for so long, the input has paused.
   };
 
   /// @param wakeup is signalled for every report; must outlive this object
@@ -55,6 +59,7 @@ class MappingThread {
   MappingThread& operator=(MappingThread&&) = delete;
 
   void take(Reading reading) { orders_.push(std::move(reading)); }
+  void name(cairn_lcm::name_request_t request) { orders_.push(std::move(request)); }
   void store(Documents documents) { orders_.push(std::move(documents)); }
   [[nodiscard]] std::optional<MappingReport> next_report() { return reports_.try_pop(); }
 
@@ -68,9 +73,10 @@ class MappingThread {
   std::unique_ptr<Engine> stop();
 
  private:
-  using Order = std::variant<Reading, Documents>;
+  using Order = std::variant<Reading, Documents, cairn_lcm::name_request_t>;
   void run();
   void carry_out(Reading reading);
+  void carry_out(const cairn_lcm::name_request_t& request);
   void finish_pause();
   void commit_when_due();
   void report(const Updates& updates, double update_ms);

@@ -198,6 +198,15 @@ void put(const MetricPath& path, cairn_lcm::plan_t* plan) {
 
 }  // namespace
 
+cairn_lcm::result_t to_result(const cairn_lcm::rpc_header_t& request, const Status& status) {
+  cairn_lcm::result_t result{};
+  result.header = request;
+  result.code = status ? std::int32_t{Code::OK} : code_of(status.error());
+  result.code_name = name_of(result.code);
+  result.reason = status ? "" : status.error().message;
+  return result;
+}
+
 cairn_lcm::plan_t refusal(const cairn_lcm::rpc_header_t& request,
                           const Sender& sender,
                           std::int32_t code,

@@ -19,6 +19,10 @@ namespace cairn {
                                        const PathOptions& options,
                                        const Sender& sender);
 
+/// The answer to a request that was carried out, or not.
+[[nodiscard]] cairn_lcm::result_t to_result(const cairn_lcm::rpc_header_t& request,
+                                            const Status& status);
+
 /// An answer without a plan. `request` gives the header to answer to.
 [[nodiscard]] cairn_lcm::plan_t refusal(const cairn_lcm::rpc_header_t& request,
                                         const Sender& sender,

@@ -30,10 +30,14 @@ std::int64_t steady_us() {
       .count();
 }
 
-Publisher::Publisher(wire::Bus& bus, std::int64_t boot_id, OrderPlan order_plan)
+Publisher::Publisher(wire::Bus& bus,
+                     std::int64_t boot_id,
+                     OrderPlan order_plan,
+                     OrderName order_name)
     : bus_(bus),
       boot_id_(boot_id),
       order_plan_(std::move(order_plan)),
+      order_name_(std::move(order_name)),
       replication_(
           boot_id,
           [this](const cairn_lcm::snapshot_chunk_t& chunk) {
@@ -71,6 +75,7 @@ bool Publisher::listen(const std::string& channel, void (Publisher::*handle)(con
 
 bool Publisher::subscribe() {
   return listen("CAIRN_REQUEST_PLAN", &Publisher::on_plan) &&
+         listen("CAIRN_REQUEST_NAME", &Publisher::on_name) &&
          listen("CAIRN_REQUEST_SNAPSHOT", &Publisher::on_snapshot) &&
          listen("CAIRN_REQUEST_DELTA", &Publisher::on_delta) &&
          listen("CAIRN_REQUEST_EVENTS", &Publisher::on_events) &&
@@ -86,6 +91,14 @@ void Publisher::publish(const MappingReport& report) {
   }
   if (report.state != nullptr) {
     publish_state(report.state);
+  }
+  if (report.answer) {
+    cairn_lcm::result_t result = *report.answer;
+    result.header.utime = wall_utime();
+    result.header.boot_id = boot_id_;
+    const wire::Bytes bytes = wire::encode(result);
+    results_.store(result.header.client_id, result.header.request_id, {"CAIRN_RESULT", bytes});
+    bus_.publish("CAIRN_RESULT", bytes);
   }
   for (const PlaceEvent& event : report.events) {
     for (const cairn_lcm::place_event_t& message : events_.note(event, state_.get())) {
@@ -190,6 +203,15 @@ void Publisher::on_plan(const cairn_lcm::plan_request_t& request) {
     // Not stored: the client is asked to come back.
     bus_.publish("CAIRN_PLAN", refusal(header, sender(), Code::BUSY, "too many plans are waiting"));
   }
+}
+
+void Publisher::on_name(const cairn_lcm::name_request_t& request) {
+  const cairn_lcm::rpc_header_t& header = request.header;
+  if (const auto* const stored = results_.find(header.client_id, header.request_id)) {
+    bus_.publish(stored->channel, stored->bytes);
+    return;
+  }
+  order_name_(request);
 }
 
 void Publisher::answer(const cairn_lcm::rpc_header_t& request,

@@ -26,9 +26,11 @@ class Publisher {
  public:
   /// Takes a plan request to the solver. @return false where too many wait already
   using OrderPlan = std::function<bool(const cairn_lcm::plan_request_t&)>;
+  /// Takes a request to name a place to the mapping thread.
+  using OrderName = std::function<void(const cairn_lcm::name_request_t&)>;
 
   /// @param bus must outlive this object
-  Publisher(wire::Bus& bus, std::int64_t boot_id, OrderPlan order_plan);
+  Publisher(wire::Bus& bus, std::int64_t boot_id, OrderPlan order_plan, OrderName order_name);
 
   /// Listens to requests and to the status of other daemons.
   /// @return false where LCM refuses
@@ -55,6 +57,7 @@ class Publisher {
   template <class Request>
   bool listen(const std::string& channel, void (Publisher::*handle)(const Request&));
   void on_plan(const cairn_lcm::plan_request_t& request);
+  void on_name(const cairn_lcm::name_request_t& request);
   void on_snapshot(const cairn_lcm::snapshot_request_t& request);
   void on_delta(const cairn_lcm::delta_request_t& request);
   void on_events(const cairn_lcm::event_request_t& request);
@@ -70,6 +73,7 @@ class Publisher {
   std::int64_t boot_id_;
   std::int64_t map_id_ = 0;
   OrderPlan order_plan_;
+  OrderName order_name_;
   wire::ReplicationServer replication_;
   wire::ResultCache results_;
   EventBook events_;

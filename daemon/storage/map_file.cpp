@@ -171,6 +171,44 @@ void MapFile::roll_back() {
   static_cast<void>(read_meta().ok());
 }
 
+Status MapFile::write_name(std::int64_t visit, const std::string& name) {
+  Result<Statement> statement =
+      database_.prepare(name.empty() ? "DELETE FROM name WHERE place_visit = ?"
+                                     : "INSERT OR REPLACE INTO name VALUES(?, ?)");
+  if (!statement) {
+    return statement.error();
+  }
+  statement->bind(0, visit);
+  if (!name.empty()) {
+    statement->bind(1, name);
+  }
+  if (Status status = begin(); !status) {
+    return status;
+  }
+  if (Status status = statement->run(); !status) {
+    return status;
+  }
+  return commit();
+}
+
+Result<std::map<std::int64_t, std::string>> MapFile::read_names() {
+  Result<Statement> statement = database_.prepare("SELECT place_visit, name FROM name");
+  if (!statement) {
+    return statement.error();
+  }
+  std::map<std::int64_t, std::string> names;
+  while (true) {
+    const Result<bool> row = statement->step();
+    if (!row) {
+      return row.error();
+    }
+    if (!*row) {
+      return names;
+    }
+    names[statement->integer(0)] = statement->text(1);
+  }
+}
+
 Status MapFile::write_document(int what,
                                std::int64_t revision,
                                const std::vector<std::uint8_t>& bytes) {

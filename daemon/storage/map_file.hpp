@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,6 +35,11 @@ class MapFile {
   Status commit();
   /// Forgets what was appended since the last commit, for instance after a full disk.
   void roll_back();
+
+  /// Takes a name for the place of a visit; empty takes it away. On the disk when this returns.
+  Status write_name(std::int64_t visit, const std::string& name);
+  /// Every name, by visit.
+  [[nodiscard]] Result<std::map<std::int64_t, std::string>> read_names();
 
   /// What was last published. @param what as in snapshot_request_t
   Status write_document(int what, std::int64_t revision, const std::vector<std::uint8_t>& bytes);

@@ -9,8 +9,8 @@
 namespace cairn {
 namespace {
 
-/// How far a beam without return is free. One or a few such beams between two that hit something are
-/// glass or a dark surface, not a hole: they are free no farther than their neighbours.
+/// How far a beam without return is free. One or a few such beams between two that hit something
+/// are glass or a dark surface, not a hole: they are free no farther than their neighbours.
 double free_range_m(const std::vector<float>& ranges_m, std::size_t beam, double reach_m) {
   constexpr std::size_t kNeighbours = 3;
   const auto nearest_return_m = [&](bool ahead) {

@@ -22,8 +22,8 @@ class ScanFootprint {
   ScanFootprint(double cell_m, double draw_range_m);
 
   /// The cells in the order of the beams. Beams are drawn up to the draw range or the scan's max
-  /// range, whichever is less; +infinity passes up to there, but no farther than its neighbours where only a few beams
-  /// lack a return; NaN says nothing.
+  /// range, whichever is less; +infinity passes up to there, but no farther than its neighbours
+  /// where only a few beams lack a return; NaN says nothing.
   /// @return valid until the next call
   [[nodiscard]] const std::vector<TouchedCell>& of(const LaserScan& scan,
                                                    const Pose2& T_global_laser);

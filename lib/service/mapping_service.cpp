@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -105,6 +106,23 @@ class MappingService::Pipeline {
   }
 
   void resume();
+
+  void name_place_of(VisitId visit, const std::string& name) {
+    CAIRN_CHECK(visit.index() < experience_.visits().size());
+    if (name.empty()) {
+      names_.erase(visit);
+    } else {
+      names_[visit] = name;
+    }
+    ++revision_;
+  }
+
+  [[nodiscard]] std::optional<VisitId> first_visit(int place) const {
+    if (!laid_out_ || place < 0 || place >= laid_out_->map.place_count()) {
+      return std::nullopt;
+    }
+    return laid_out_->map.first_visit(PlaceId{place});
+  }
 
   [[nodiscard]] std::shared_ptr<const MapState> state() const;
 
@@ -227,10 +245,11 @@ class MappingService::Pipeline {
   Experience experience_;
   VisitMatcher matcher_;
   HypothesisTree tree_;
-  std::optional<Hypothesis> laid_out_;  ///< The best one, as of the last layout.
-  MetricalMap metrical_;                ///< Of that hypothesis.
-  GaussianPose T_global_anchor_;        ///< The robot at the last visit's anchor.
-  GaussianPose since_anchor_;           ///< Its motion since.
+  std::optional<Hypothesis> laid_out_;    ///< The best one, as of the last layout.
+  MetricalMap metrical_;                  ///< Of that hypothesis.
+  std::map<VisitId, std::string> names_;  ///< Given by people, to the place of a visit.
+  GaussianPose T_global_anchor_;          ///< The robot at the last visit's anchor.
+  GaussianPose since_anchor_;             ///< Its motion since.
   TimePoint detector_time_{};
   std::int64_t revision_ = 0;
   std::int64_t refuted_ = 0;
@@ -290,6 +309,11 @@ std::shared_ptr<const MapState> MappingService::Pipeline::state() const {
     state->place_of_visit.push_back(best.map.at_visit(VisitId{v}).place.value);
   }
   state->places = mapped_places(best.map, experience_, metrical_.layout);
+  for (const auto& [visit, name] : names_) {
+    if (visit.index() < state->place_of_visit.size()) {
+      state->places[static_cast<std::size_t>(state->place_of_visit[visit.index()])].name = name;
+    }
+  }
   state->segments =
       mapped_segments(best.map, experience_, metrical_.layout, matcher_.constraints(best.map));
   state->hypotheses = summaries(tree_, kToldHypotheses);
@@ -353,6 +377,12 @@ const JoinerCounters& MappingService::joiner_counters() const {
 }
 const PlaceDetectorReport& MappingService::place_report() const {
   return pipeline_->place_report();
+}
+void MappingService::name_place_of(VisitId visit, const std::string& name) {
+  pipeline_->name_place_of(visit, name);
+}
+std::optional<VisitId> MappingService::first_visit(int place) const {
+  return pipeline_->first_visit(place);
 }
 GaussianPose MappingService::T_global_robot() const {
   return pipeline_->T_global_robot();

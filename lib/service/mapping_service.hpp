@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "sensing/odometry.hpp"
@@ -58,6 +59,12 @@ class MappingService {
   /// kInvalidValue for a visit that does not follow from the scans recalled so far.
   Status recall(Visit visit);
   void resume();
+
+  /// Calls the place that this visit was to by a name, in whatever map; empty takes it away.
+  /// @pre the visit is in the experience
+  void name_place_of(VisitId visit, const std::string& name);
+  /// The first visit to a place of the best map; nothing where there is no such place.
+  [[nodiscard]] std::optional<VisitId> first_visit(int place) const;
 
   /// The best map with everything that is published of it.
   [[nodiscard]] std::shared_ptr<const MapState> state() const;

@@ -12,6 +12,7 @@
 #include <cairn_lcm/hypotheses_t.hpp>
 #include <cairn_lcm/laser_scan_t.hpp>
 #include <cairn_lcm/map_delta_t.hpp>
+#include <cairn_lcm/name_request_t.hpp>
 #include <cairn_lcm/odometry_t.hpp>
 #include <cairn_lcm/place_event_t.hpp>
 #include <cairn_lcm/place_t.hpp>
@@ -112,6 +113,13 @@ inline cairn_lcm::place_t sample() {
   message.star = "((gw1 Pa1+))";
   message.gateways.resize(3);
   message.num_gateways = 3;
+  return message;
+}
+
+template <>
+inline cairn_lcm::name_request_t sample() {
+  cairn_lcm::name_request_t message{};
+  message.name = "kitchen";
   return message;
 }
 

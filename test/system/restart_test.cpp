@@ -40,9 +40,13 @@ TEST_P(RestartTest, GoesOnWithTheSamePlacesHypothesesAndFrame) {
       const json status = asked("status", hub.url());
       // The input has paused for long enough that the last visit is closed.
       return status.is_object() && status.value("scans_received", 0) > 0 &&
-             status.value("scan_age_ms", 0) > 4000;
+             status.value("scan_age_ms", 0) > 7000;
     }));
+    EXPECT_EQ(run({CAIRN, "name", "1", "kitchen", "--lcm-url", hub.url()}, folder_).status, 0);
+    EXPECT_EQ(run({CAIRN, "name", "2", "kitchen", "--lcm-url", hub.url()}, folder_).status, 65);
+    EXPECT_EQ(run({CAIRN, "name", "99", "attic", "--lcm-url", hub.url()}, folder_).status, 65);
     places_before = asked("places", hub.url());
+    EXPECT_EQ(places_before["places"][1]["name"], "kitchen");
     hypotheses_before = asked("hypotheses", hub.url());
     daemon.send(GetParam());
     static_cast<void>(daemon.wait(std::chrono::seconds(10)));

@@ -92,7 +92,8 @@ TEST(OptionObject, GivesASchemaWithRangesAndNoOtherKeys) {
 
 TEST(OptionObject, TabulatesEveryLeaf) {
   House house;
-  EXPECT_THAT(describe(&house).table(), HasSubstr("| `lamps[].bulbs` | `3` | [1, 10] | How many. |"));
+  EXPECT_THAT(describe(&house).table(),
+              HasSubstr("| `lamps[].bulbs` | `3` | [1, 10] | How many. |"));
 }
 
 TEST(ParseJson, TellsWhereTextIsNoJson) {

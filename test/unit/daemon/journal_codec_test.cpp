@@ -19,7 +19,9 @@ PerceivedScan sample_scan() {
   return scan;
 }
 
-Visit sample_visit() { return {test::corner_at({3.0, 4.0}), 17}; }
+Visit sample_visit() {
+  return {test::corner_at({3.0, 4.0}), 17};
+}
 
 TEST(JournalCodec, GivesBackTheScanItTook) {
   const PerceivedScan scan = sample_scan();

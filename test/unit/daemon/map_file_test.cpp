@@ -2,9 +2,8 @@
 
 #include <filesystem>
 
-#include <sqlite3.h>
-
 #include <gmock/gmock.h>
+#include <sqlite3.h>
 
 #include "storage/journal_codec.hpp"
 #include "support/experience.hpp"
@@ -40,12 +39,12 @@ class MapFileTest : public ::testing::Test {
     if (!map) {
       return {map.error().message};
     }
-    const Status status = map->read_journal(
-        [&](const PerceivedScan&) { entries.emplace_back("s"); },
-        [&](const Visit&) {
-          entries.emplace_back("v");
-          return Status();
-        });
+    const Status status =
+        map->read_journal([&](const PerceivedScan&) { entries.emplace_back("s"); },
+                          [&](const Visit&) {
+                            entries.emplace_back("v");
+                            return Status();
+                          });
     if (!status) {
       entries.push_back(status.error().message);
     }
@@ -88,6 +87,14 @@ TEST_F(MapFileTest, WhatWasRolledBackCanBeWrittenAgain) {
   ASSERT_TRUE(map->append(scan).ok());
   ASSERT_TRUE(map->commit().ok());
   EXPECT_EQ(map->scan_count(), 1);
+}
+
+TEST_F(MapFileTest, KeepsNamesAndTakesThemAway) {
+  write_journal(path());
+  ASSERT_TRUE(MapFile::open(path())->write_name(0, "kitchen").ok());
+  EXPECT_EQ(MapFile::open(path())->read_names()->at(0), "kitchen");
+  ASSERT_TRUE(MapFile::open(path())->write_name(0, "").ok());
+  EXPECT_TRUE(MapFile::open(path())->read_names()->empty());
 }
 
 TEST_F(MapFileTest, ADamagedRowEndsTheJournalWithItsName) {

@@ -1,9 +1,8 @@
 #include "runtime/map_maker.hpp"
 
-#include <gmock/gmock.h>
-
 #include <cairn_lcm/snapshot_request_t.hpp>
 #include <cairn_lcm/topology_t.hpp>
+#include <gmock/gmock.h>
 
 #include "support/experience.hpp"
 #include "wire/document.hpp"

@@ -7,9 +7,9 @@
 namespace cairn {
 namespace {
 
-using ::testing::SizeIs;
 using test::corner_at;
 using test::scan_at;
+using ::testing::SizeIs;
 
 TEST(DepartureGateway, IsTheOneThatWasCrossed) {
   EXPECT_EQ(departure_gateway(corner_at({0, 0}), corner_at({9, 0})), 1);
@@ -31,7 +31,8 @@ TEST(PosesBetween, FollowOdometryAndEndAtTheScans) {
       with_poses_between(scans, {{scans[0].scan, Pose2()}, {scans[1].scan, Pose2(1.1, 0, 0)}});
   ASSERT_THAT(poses, SizeIs(3));
   EXPECT_EQ(poses[1].time, time_of_utime(1'050'000));
-  EXPECT_NEAR(poses[1].T_global_robot.x(), 0.55, 1e-9);  // Half of the motion, half of what it lacked.
+  EXPECT_NEAR(poses[1].T_global_robot.x(), 0.55,
+              1e-9);  // Half of the motion, half of what it lacked.
   EXPECT_NEAR(poses[2].T_global_robot.x(), 1.1, 1e-9);
 }
 

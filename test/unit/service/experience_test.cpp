@@ -7,10 +7,10 @@
 namespace cairn {
 namespace {
 
-using ::testing::IsEmpty;
-using ::testing::SizeIs;
 using test::corner_at;
 using test::scan_at;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 /// A drive of 1 m steps along x.
 Experience driven(int scans) {

@@ -7,7 +7,9 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(ServiceOptions, DefaultsAreSound) { EXPECT_TRUE(validate(ServiceOptions()).ok()); }
+TEST(ServiceOptions, DefaultsAreSound) {
+  EXPECT_TRUE(validate(ServiceOptions()).ok());
+}
 
 TEST(ServiceOptions, TellsTheViolationsOfAllStagesTogether) {
   ServiceOptions options;

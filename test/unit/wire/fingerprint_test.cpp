@@ -28,6 +28,7 @@ TEST(Fingerprints, AreWhatTheyWere) {
       CAIRN_GOLDEN(cairn_lcm::hypotheses_t, 0x1e2cb63ab38249c1),
       CAIRN_GOLDEN(cairn_lcm::laser_scan_t, 0x22067aeecbe2b983),
       CAIRN_GOLDEN(cairn_lcm::map_delta_t, 0x9439777c492dff7f),
+      CAIRN_GOLDEN(cairn_lcm::name_request_t, 0xcf95b9ea3e2c9f7a),
       CAIRN_GOLDEN(cairn_lcm::odometry_t, 0x1ab2679132ee7bc1),
       CAIRN_GOLDEN(cairn_lcm::place_event_t, 0x2fa5e4157d00aca3),
       CAIRN_GOLDEN(cairn_lcm::place_t, 0xce4b584ff1e653cb),
