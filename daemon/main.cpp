@@ -33,12 +33,18 @@ struct Arguments {
 };
 
 void declare(CLI::App* app, Arguments* arguments) {
+  const auto not_empty = CLI::Validator(
+      [](const std::string& text) { return text.empty() ? "must not be empty" : std::string(); },
+      "");
   app->add_option("--config", arguments->config_file,
-                  "configuration file (JSON); all defaults are built in");
-  app->add_option("--lcm-url", arguments->lcm_url, "LCM url of the bus");
-  app->add_option("--map", arguments->map_file, "map file; created where there is none");
+                  "configuration file (JSON); all defaults are built in")
+      ->check(not_empty);
+  app->add_option("--lcm-url", arguments->lcm_url, "LCM url of the bus")->check(not_empty);
+  app->add_option("--map", arguments->map_file, "map file; created where there is none")
+      ->check(not_empty);
   app->add_option("--replay", arguments->replay_logs,
-                  "run recorded logs (CARMEN or LCM) offline into a new map file, then exit");
+                  "run recorded logs (CARMEN or LCM) offline into a new map file, then exit")
+      ->check(not_empty);
   app->add_flag("--check-config", arguments->check_config, "check the configuration, then exit");
   app->add_flag("--dump-config", arguments->dump_config,
                 "print the effective configuration, then exit");

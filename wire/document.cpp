@@ -1,5 +1,7 @@
 #include "wire/document.hpp"
 
+#include <memory>
+
 #include <zlib.h>
 #include <zstd.h>
 
@@ -21,8 +23,11 @@ std::int32_t crc32_of(const std::uint8_t* bytes, std::size_t size) {
 
 Bytes compressed(const std::uint8_t* bytes, std::size_t size) {
   Bytes frame(ZSTD_compressBound(size));
-  const std::size_t length =
-      ZSTD_compress(frame.data(), frame.size(), bytes, size, kCompressionLevel);
+  const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(),
+                                                                     &ZSTD_freeCCtx);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, kCompressionLevel);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);  // Flipped bits are noticed.
+  const std::size_t length = ZSTD_compress2(context.get(), frame.data(), frame.size(), bytes, size);
   frame.resize(ZSTD_isError(length) != 0 ? 0 : length);
   return frame;
 }

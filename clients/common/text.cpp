@@ -7,6 +7,7 @@
 #include <fstream>
 #include <numbers>
 #include <ostream>
+#include <string_view>
 
 #include <unistd.h>
 
@@ -158,6 +159,14 @@ void write_file(const std::filesystem::path& path, const std::string& content) {
   };
   const std::filesystem::path temporary = path.string() + ".tmp" + std::to_string(::getpid());
   std::error_code error;
+  // Whoever names the map as the picture's file must not lose the map.
+  constexpr std::string_view kDatabase = "SQLite format 3";
+  std::string start(kDatabase.size(), '\0');
+  if (std::ifstream(path, std::ios::binary).read(start.data(), std::ssize(start)) &&
+      start == kDatabase) {
+    throw Failure(ExitCode::kCannotCreate,
+                  path.string() + " is a map file: it is not written over");
+  }
   // A device or a pipe is written to as it is: nothing may be renamed over it.
   const bool is_plain =
       !std::filesystem::exists(path, error) || std::filesystem::is_regular_file(path, error);

@@ -160,10 +160,7 @@ class Daemon {
   void take_reports() {
     while (const std::optional<MappingReport> report = mapping_.next_report()) {
       publisher_.publish(*report);
-      for (const MappedFix& fix : report->fixes) {
-        ++scans_mapped_;
-        refused_matches_ += fix.fix.is_matched ? 0 : 1;
-      }
+      scans_mapped_ += static_cast<std::int64_t>(report->fixes.size());
       if (!report->fixes.empty()) {
         latency_.add(report->update_ms);
       }
@@ -201,20 +198,30 @@ class Daemon {
     }
   }
 
-  /// One drawing is under way at a time; the newest state is drawn next.
+  /// One drawing is under way at a time; the newest state is drawn next. What was drawn is stored
+  /// now and then, and soon after the map has changed.
   void order_drawing() {
-    if (is_drawing_ || newest_ == nullptr) {
+    constexpr std::int64_t kSoon_us = 5'000'000;
+    const std::shared_ptr<const MapState> next = newest_ != nullptr ? newest_ : drawn_;
+    if (is_drawing_ || next == nullptr) {
       return;
     }
-    const std::int64_t now = steady_us();
+    const std::int64_t age_us = steady_us() - last_documents_us_;
+    const bool has_changed = next->topology_revision != stored_revision_;
+    const bool is_old = static_cast<double>(age_us) > 1e6 * options_.documents_every_s;
     const bool with_documents =
-        static_cast<double>(now - last_documents_us_) > 1e6 * options_.documents_every_s;
+        (has_changed && age_us > kSoon_us) || (is_old && newest_ != nullptr);
+    if (newest_ == nullptr && !with_documents) {
+      return;
+    }
     if (with_documents) {
-      last_documents_us_ = now;
+      last_documents_us_ = steady_us();
+      stored_revision_ = next->topology_revision;
     }
     is_drawing_ = true;
-    solver_.order(DrawOrder{
-        std::exchange(newest_, nullptr), {0, publisher_.sender().map_id}, with_documents});
+    drawn_ = next;
+    newest_ = nullptr;
+    solver_.order(DrawOrder{next, {0, publisher_.sender().map_id}, with_documents});
   }
 
   bool order_plan(const cairn_lcm::plan_request_t& request) {
@@ -278,7 +285,7 @@ class Daemon {
     if (!journal_trouble_.empty()) {
       return {State::DEGRADED, "the map file cannot be written: " + journal_trouble_};
     }
-    if (publisher_.foreign_daemons() > 0) {
+    if (publisher_.hears_another_daemon()) {
       return {State::DEGRADED, "another cairnd is on this bus"};
     }
     if (now - last_scan_us_ > kSensorOld_us) {
@@ -309,7 +316,7 @@ class Daemon {
     status.scans_dropped = mapping_.dropped();
     status.scans_out_of_order = static_cast<std::int64_t>(joiner_.out_of_order);
     status.clock_steps = static_cast<std::int64_t>(joiner_.clock_steps);
-    status.scans_refused = static_cast<std::int64_t>(joiner_.duplicates);
+    status.scans_refused = static_cast<std::int64_t>(joiner_.duplicates + joiner_.strays);
     status.odometry_received = odometry_received_;
     add_inlet_counters(&status);
     status.udp_drops = wire::own_udp_drops().value_or(-1);
@@ -346,6 +353,8 @@ class Daemon {
   Supervisor supervisor_;
 
   std::shared_ptr<const MapState> newest_;  ///< Waits to be drawn.
+  std::shared_ptr<const MapState> drawn_;   ///< Was drawn last.
+  std::int64_t stored_revision_ = 0;        ///< Of the documents in the map file.
   bool is_drawing_ = false;
   std::int64_t last_documents_us_ = 0;
   std::int64_t last_scan_us_ = 0;
@@ -354,7 +363,6 @@ class Daemon {
   std::int64_t last_progress_ = -1;
   std::int64_t scans_received_ = 0;
   std::int64_t scans_mapped_ = 0;
-  std::int64_t refused_matches_ = 0;
   std::int64_t odometry_received_ = 0;
   int last_state_ = cairn_lcm::status_t::STARTING;
   std::optional<int> state_override_;

@@ -40,7 +40,7 @@ Status Engine::recall() {
   if (!status) {
     return status;
   }
-  service_->resume();
+  journal(service_->resume());
   const Result<std::map<std::int64_t, std::string>> names = map_file_.read_names();
   if (!names) {
     return names.error();
@@ -105,7 +105,11 @@ void Engine::journal(const Updates& updates) {
   for (const Visit& visit : updates.visits) {
     waiting_.emplace_back(visit);
   }
-  write_waiting(!updates.visits.empty());
+  if (is_journal_closed_) {
+    waiting_.clear();
+  }
+  write_waiting(!updates.visits.empty() && journal_trouble_.empty());
+  bound_waiting();
 }
 
 void Engine::commit() {
@@ -113,6 +117,10 @@ void Engine::commit() {
 }
 
 void Engine::write_waiting(bool commit) {
+  const bool is_retry_due = journal_trouble_.empty() || commit;
+  if (is_journal_closed_ || !is_retry_due) {
+    return;
+  }
   const auto start = std::chrono::steady_clock::now();
   Status status;
   while (appended_ < waiting_.size() && status) {
@@ -125,20 +133,26 @@ void Engine::write_waiting(bool commit) {
     if (status) {
       waiting_.clear();
       appended_ = 0;
+      journal_trouble_.clear();
     }
   }
   if (!status) {
     // The disk took only a part, or none: all of it stays here and is written anew later.
     map_file_.roll_back();
     appended_ = 0;
+    journal_trouble_ = status.error().message;
   }
-  if (waiting_.size() > kMaxWaiting) {
-    entries_lost_ += static_cast<std::int64_t>(waiting_.size() - kMaxWaiting);
-    waiting_.resize(kMaxWaiting);
-  }
-  journal_trouble_ = status ? "" : status.error().message;
   journal_seconds_ +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// A journal with a hole could not be taken up again: rather an earlier end than a hole.
+void Engine::bound_waiting() {
+  if (waiting_.size() > kMaxWaiting) {
+    waiting_.clear();
+    is_journal_closed_ = true;
+    journal_trouble_ += "; given up: what comes now is not kept, restart when there is space";
+  }
 }
 
 void Engine::store(const Documents& documents) {

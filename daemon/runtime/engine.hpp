@@ -46,8 +46,6 @@ class Engine {
   /// Why the journal cannot be written; empty while all is well. What could not be written waits in
   /// memory, up to a bound, and is written when the disk takes it again.
   [[nodiscard]] const std::string& journal_trouble() const { return journal_trouble_; }
-  /// Journal entries that had to be given up because the disk stayed full for too long.
-  [[nodiscard]] std::int64_t entries_lost() const { return entries_lost_; }
 
   [[nodiscard]] const MappingService& service() const { return *service_; }
   [[nodiscard]] const StageClock& stage_clock() const { return stage_clock_; }
@@ -59,6 +57,7 @@ class Engine {
   Status recall();
   void journal(const Updates& updates);
   void write_waiting(bool commit);
+  void bound_waiting();
 
   MapFile map_file_;
   StageClock stage_clock_;
@@ -66,7 +65,7 @@ class Engine {
   std::vector<std::variant<PerceivedScan, Visit>> waiting_;  ///< Not committed yet, in order.
   std::size_t appended_ = 0;  ///< Of these, how many the open transaction holds.
   std::string journal_trouble_;
-  std::int64_t entries_lost_ = 0;
+  bool is_journal_closed_ = false;  ///< For this run: the disk stayed full for too long.
   double journal_seconds_ = 0.0;
 };
 

@@ -45,7 +45,9 @@ void MappingThread::run() {
     std::optional<Order> order =
         orders_.pop_within(std::chrono::duration<double>(options_.pause_after_s));
     if (!order) {
-      finish_pause();
+      if (!orders_.is_over()) {
+        finish_pause();
+      }
     } else if (auto* const documents = std::get_if<Documents>(&*order)) {
       engine_->store(*documents);
     } else if (auto* const request = std::get_if<cairn_lcm::name_request_t>(&*order)) {

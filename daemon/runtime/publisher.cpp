@@ -160,6 +160,7 @@ void Publisher::publish(const Drawing& drawing, const GlobalMapOptions& options)
 }
 
 void Publisher::publish(const cairn_lcm::plan_t& plan) {
+  plans_under_way_.erase({plan.result.header.client_id, plan.result.header.request_id});
   const wire::Bytes bytes = wire::encode(plan);
   results_.store(plan.result.header.client_id, plan.result.header.request_id,
                  {"CAIRN_PLAN", bytes});
@@ -199,7 +200,13 @@ void Publisher::on_plan(const cairn_lcm::plan_request_t& request) {
     bus_.publish(stored->channel, stored->bytes);
     return;
   }
-  if (!order_plan_(request)) {
+  const auto key = std::make_pair(header.client_id, header.request_id);
+  if (plans_under_way_.count(key) != 0) {
+    return;  // Asked again: the answer is on its way.
+  }
+  if (order_plan_(request)) {
+    plans_under_way_.insert(key);
+  } else {
     // Not stored: the client is asked to come back.
     bus_.publish("CAIRN_PLAN", refusal(header, sender(), Code::BUSY, "too many plans are waiting"));
   }
@@ -248,11 +255,17 @@ void Publisher::on_events(const cairn_lcm::event_request_t& request) {
   }
 }
 
+bool Publisher::hears_another_daemon() const {
+  constexpr std::int64_t kSilence_us = 5'000'000;  // Every daemon speaks once a second.
+  return foreign_heard_us_ != 0 && steady_us() - foreign_heard_us_ < kSilence_us;
+}
+
 void Publisher::on_status(const cairn_lcm::status_t& status) {
   if (status.boot_id == boot_id_) {
     return;
   }
   ++foreign_daemons_;
+  foreign_heard_us_ = steady_us();
   if (foreign_boot_id_ != status.boot_id) {
     foreign_boot_id_ = status.boot_id;
     remark_ = "another cairnd is on this bus (boot id " + std::to_string(status.boot_id) +

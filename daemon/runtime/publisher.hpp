@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 
 #include <cairn_lcm/delta_request_t.hpp>
 #include <cairn_lcm/event_request_t.hpp>
@@ -48,7 +50,8 @@ class Publisher {
   [[nodiscard]] bool has_work() const { return replication_.has_work(); }
   [[nodiscard]] const std::shared_ptr<const MapState>& state() const { return state_; }
   [[nodiscard]] Sender sender() const { return {boot_id_, map_id_}; }
-  [[nodiscard]] std::int64_t foreign_daemons() const { return foreign_daemons_; }
+  /// Whether another daemon was heard in the last seconds.
+  [[nodiscard]] bool hears_another_daemon() const;
   /// Something that belongs into the log: a second daemon, a broken request. Empties itself.
   [[nodiscard]] std::string take_remark() { return std::exchange(remark_, {}); }
   [[nodiscard]] std::int64_t malformed_requests() const { return malformed_requests_; }
@@ -76,10 +79,12 @@ class Publisher {
   OrderName order_name_;
   wire::ReplicationServer replication_;
   wire::ResultCache results_;
+  std::set<std::pair<std::int64_t, std::int32_t>> plans_under_way_;  ///< By client and request.
   EventBook events_;
   std::shared_ptr<const MapState> state_;
   std::int64_t foreign_daemons_ = 0;
   std::int64_t foreign_boot_id_ = 0;
+  std::int64_t foreign_heard_us_ = 0;
   std::int64_t malformed_requests_ = 0;
   std::string remark_;
 };

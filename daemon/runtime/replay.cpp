@@ -132,6 +132,7 @@ Json summary_of(const Replay& replay, const Engine& engine, double spent_s) {
           {"fixes", tally.notes},
           {"duplicate_scans_dropped", joiner.duplicates},
           {"out_of_order", joiner.out_of_order},
+          {"stray_stamps_dropped", joiner.strays},
           {"clock_steps", joiner.clock_steps},
           {"gaps", joiner.gaps},
           {"scans_without_odometry", joiner.scans_without_odometry},
@@ -175,7 +176,8 @@ void print_text(const Json& summary) {
   line("scans", number("scans") + ", matched " + number("matched") + " (" +
                     counts_text(summary["fixes"]) + ")");
   line("stamps", number("out_of_order") + " out of order (used), " +
-                     number("duplicate_scans_dropped") + " duplicates (dropped), " +
+                     number("duplicate_scans_dropped") + " duplicates and " +
+                     number("stray_stamps_dropped") + " stray stamps (dropped), " +
                      number("clock_steps") + " clock steps, " + number("gaps") + " gaps, " +
                      number("scans_without_odometry") + " scans without odometry");
   line("refused", counts_text(summary["refused"]));
@@ -223,6 +225,13 @@ ExitCode replay(const DaemonOptions& options,
   if (const Status status = check_is_new(map_file); !status) {
     complain(status.error().message);
     return ExitCode::kCannotCreate;
+  }
+  for (const std::string& log : logs) {
+    // Before a file is made: a wrong name should leave nothing behind.
+    if (const auto reader = wire::LogReader::open(log); !reader) {
+      complain(reader.error());
+      return ExitCode::kBadData;
+    }
   }
   Result<std::unique_ptr<Engine>> engine = Engine::open(options.service, map_file);
   if (!engine) {

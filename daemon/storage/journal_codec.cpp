@@ -15,7 +15,7 @@ namespace cairn::wire {
 
 template <>
 inline constexpr std::string_view kSignatureText<cairn_journal::scan_record_t> =
-    "q d[=3] d[=9] d[=3] d[=9] i i i d d[=3] d d i f[12] i f[14] i q[16] d[16][=3]";
+    "q d[=3] d[=9] d[=3] d[=9] i i i d d[=3] d d i f[12] i f[14] i d[=3] i q[18] d[18][=3]";
 template <>
 inline constexpr std::string_view kSignatureText<cairn_journal::visit_record_t> =
     "q q q d[=3] i i d[=3] d[=3] d[=2] i d d i {d[=4] d[=2] d d d}[12] i {i i i}[14] i {i i i}[16] "
@@ -187,7 +187,21 @@ Result<PlaceNeighbourhood> neighbourhood_of(const cairn_journal::visit_record_t&
     neighbourhood.star.slots.push_back(
         {slot.gateway, static_cast<std::size_t>(slot.partner), static_cast<ControlLaw>(slot.law)});
   }
+  if (const Status status = validate(neighbourhood.star); !status) {
+    return malformed(status.error().message);
+  }
+  if (gateway_count(neighbourhood.star) != record.num_gateways) {
+    return malformed("a star whose gateways are not those of the visit");
+  }
   return neighbourhood;
+}
+
+bool is_finite(const PlaceVisit& visit) {
+  double sum = visit.T_lpm_place.x() + visit.T_lpm_place.y() + visit.T_lpm_place.theta();
+  for (const Gateway& gateway : visit.neighbourhood.gateways) {
+    sum += gateway.middle.sum() + gateway.outward_bearing_rad + gateway.width_m;
+  }
+  return std::isfinite(sum);
 }
 
 bool names_a_gateway(int gateway, std::size_t count) {
@@ -216,6 +230,8 @@ std::vector<std::uint8_t> to_row(const PerceivedScan& perceived) {
   record.num_bearings = static_cast<int>(record.bearings_rad.size());
   record.ranges_m = scan.ranges_m;
   record.num_ranges = static_cast<int>(record.ranges_m.size());
+  record.has_odometry = perceived.T_odom_robot ? 1 : 0;
+  put(perceived.T_odom_robot.value_or(Pose2()), record.T_odom_robot_m_rad);
   for (const OdometrySample& between : perceived.between) {
     record.between_utime.push_back(utime_of(between.time));
     const Pose2& pose = between.T_odom_robot;
@@ -254,7 +270,14 @@ Result<PerceivedScan> scan_of_row(const std::vector<std::uint8_t>& row) {
     return malformed("a pose or a note out of range");
   }
   fix.note = static_cast<FixNote>(record->note);
-  PerceivedScan perceived{std::move(scan), fix, {}};
+  PerceivedScan perceived{std::move(scan), fix, std::nullopt, {}};
+  if (record->has_odometry != 0) {
+    perceived.T_odom_robot = pose_of(record->T_odom_robot_m_rad);
+    if (const Status status = validate(OdometrySample{fix.time, *perceived.T_odom_robot});
+        !status) {
+      return malformed(status.error().message);
+    }
+  }
   for (std::size_t i = 0; i < record->between_utime.size(); ++i) {
     const std::vector<double>& pose = record->T_previous_between_m_rad[i];
     const OdometrySample between{time_of_utime(record->between_utime[i]),
@@ -309,10 +332,10 @@ Result<Visit> visit_of_row(const std::vector<std::uint8_t>& row) {
   perceived.neighbourhood = *std::move(neighbourhood);
   perceived.lpm = *std::move(lpm);
   const std::size_t gateways = perceived.neighbourhood.gateways.size();
-  if (record->anchor_scan < 0 || gateways == 0 ||
+  if (record->anchor_scan < 0 || gateways == 0 || !is_finite(perceived) ||
       !names_a_gateway(perceived.arrival_gateway, gateways) ||
       !names_a_gateway(perceived.departure_gateway, gateways)) {
-    return malformed("a visit that names a missing gateway or scan");
+    return malformed("a visit with a missing gateway or scan, or a number that is none");
   }
   return visit;
 }

@@ -31,11 +31,15 @@ Result<MapFile> MapFile::open(const std::string& file) {
   if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
     return Error{ErrorCode::kUnavailable, file + ": there is no folder " + folder.string()};
   }
+  Result<FileLock> lock = FileLock::hold(file);
+  if (!lock) {
+    return Error{lock.error().code, file + ": " + lock.error().message};
+  }
   Result<Database> database = Database::open(file);
   if (!database) {
     return database.error();
   }
-  MapFile map_file(*std::move(database));
+  MapFile map_file(*std::move(lock), *std::move(database));
   if (const Status status = map_file.prepare(); !status) {
     return Error{status.error().code, file + ": " + status.error().message};
   }

@@ -10,6 +10,7 @@
 #include "base/result.hpp"
 #include "service/experience.hpp"
 #include "storage/database.hpp"
+#include "storage/file_lock.hpp"
 
 namespace cairn {
 
@@ -58,12 +59,14 @@ class MapFile {
   Status close();
 
  private:
-  explicit MapFile(Database database) : database_(std::move(database)) {}
+  MapFile(FileLock lock, Database database)
+      : lock_(std::move(lock)), database_(std::move(database)) {}
   Status prepare();
   Status check_format();
   Status begin();
   Status read_meta();
 
+  FileLock lock_;  ///< Outlives the database: closing any descriptor of it would end its locks.
   Database database_;
   Statement insert_scan_;
   Statement insert_visit_;

@@ -300,7 +300,7 @@ Result<Json> parse_json(const std::string& text) {
   // The one place of lib/ where an exception is met: the library's own, turned into an Error here.
   try {
     return Json::parse(text, nullptr, true, true);
-  } catch (const Json::parse_error& error) {
+  } catch (const Json::exception& error) {
     return Error{ErrorCode::kMalformed, error.what()};
   }
 }

@@ -9,9 +9,9 @@ OptionObject describe(JoinerOptions* joiner) {
       .number("history_s", &joiner->history_s, {0.1, 600}, "Odometry that is kept, by its stamps.")
       .number("patience_s", &joiner->patience_s, {0, 60}, "How long a scan waits for odometry.")
       .number("clock_step_back_s", &joiner->clock_step_back_s, {0.1, 3600},
-              "A longer jump back is a new clock: the inputs start afresh.")
+              "A longer jump back is a stray stamp, three that agree a new clock.")
       .number("clock_step_ahead_s", &joiner->clock_step_ahead_s, {1, 1e9},
-              "A longer jump ahead is a new clock.");
+              "A longer jump ahead is a stray stamp, three that agree a new clock.");
   return object;
 }
 
@@ -22,7 +22,7 @@ OptionObject describe(ScrollingMapOptions* map) {
       .number("memory_travel_m", &map->memory_travel_m, {1, 10000},
               "What was not seen for this travel is forgotten, so that no large loop closes here.")
       .number("hit_log_odds", &map->hit_log_odds, {0.41, 3}, "Added to the cell a beam ends in.")
-      .number("miss_log_odds", &map->miss_log_odds, {0.01, 3},
+      .number("miss_log_odds", &map->miss_log_odds, {0.41, 3},
               "Taken from a cell a beam passes through.")
       .number("max_log_odds", &map->max_log_odds, {1, 20},
               "Clamp, so that what has moved away fades.")
@@ -178,8 +178,8 @@ OptionObject describe(GlobalMapOptions* map) {
       .number("draw_range_m", &map->draw_range_m, {0.1, 100}, "Beams are drawn up to here.")
       .number("hit_log_odds", &map->hit_log_odds, {0.01, 10}, "A scan ends a beam in the cell.")
       .number("miss_log_odds", &map->miss_log_odds, {0.01, 10}, "A scan sees through the cell.")
-      .number("moved_m", &map->moved_m, {0, 10}, "A scan moved by no more stays as it is drawn.")
-      .number("turned_rad", &map->turned_rad, {0, 3.1}, "The same for its heading.")
+      .number("moved_m", &map->moved_m, {0, 1}, "A scan moved by no more stays as it is drawn.")
+      .number("turned_rad", &map->turned_rad, {0, 1}, "The same for its heading.")
       .integer("max_tiles", &map->max_tiles, {1, 1e6},
                "What lies beyond this budget is not drawn.");
   return object;
@@ -190,7 +190,7 @@ OptionObject describe(GridSearchOptions* search) {
   object
       .number("robot_radius_m", &search->robot_radius_m, {0, 10},
               "Cells with less clearance are not traversable.")
-      .number("comfort_clearance_m", &search->comfort_clearance_m, {0, 20},
+      .number("comfort_clearance_m", &search->comfort_clearance_m, {0, 10},
               "Nearer to walls than this, cells cost more.")
       .number("wall_cost", &search->wall_cost, {0, 14},
               "Added cost per metre at the robot's radius.")

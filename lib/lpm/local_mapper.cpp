@@ -238,7 +238,9 @@ void LocalMapper::draw(const LaserScan& scan, FixNote note) {
   is_started_ = true;
 }
 
-void LocalMapper::restore(const LaserScan& scan, const Pose2& T_lpm_robot) {
+void LocalMapper::restore(const LaserScan& scan,
+                          const Pose2& T_lpm_robot,
+                          const std::optional<Pose2>& T_odom_robot) {
   if (is_started_) {
     travel_m_ += (T_lpm_robot.translation() - T_lpm_robot_.translation()).norm();
   }
@@ -247,7 +249,7 @@ void LocalMapper::restore(const LaserScan& scan, const Pose2& T_lpm_robot) {
   time_ = scan.time;
   T_lpm_robot_ = T_lpm_robot;
   T_lpm_drawn_ = T_lpm_robot;
-  T_odom_robot_.reset();
+  T_odom_robot_ = T_odom_robot;
   uncertainty_ = diagonal(kLeastSigma_m, kLeastSigma_m, kLeastSigma_rad);
   speed_m_per_s_ = 0.0;
   turn_rate_rad_per_s_ = 0.0;

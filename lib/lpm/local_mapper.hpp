@@ -67,9 +67,12 @@ class LocalMapper {
   [[nodiscard]] const OccupancyGrid& grid() const { return map_.grid(); }
 
   /// Puts back a scan remembered with its pose, without matching, to rebuild the map after a
-  /// restart: oldest first. The next scan absorbed is looked for around the pose restored last.
+  /// restart: oldest first. The next scan absorbed is looked for where odometry says that the robot
+  /// has gone since the scan restored last; without odometry, around that scan's pose.
   /// @pre validate(scan).ok()
-  void restore(const LaserScan& scan, const Pose2& T_lpm_robot);
+  void restore(const LaserScan& scan,
+               const Pose2& T_lpm_robot,
+               const std::optional<Pose2>& T_odom_robot);
 
  private:
   [[nodiscard]] GaussianPose predicted_motion(const JoinedScan& joined, bool* is_believed) const;

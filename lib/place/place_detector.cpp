@@ -70,9 +70,6 @@ std::vector<PlaceEvent> PlaceDetector::observe(TimePoint time,
                                                const OccupancyGrid& grid) {
   std::vector<PlaceEvent> events;
   const StampedPose now{time, T_lpm_robot};
-  if (last_pose_ && time < last_pose_->time) {
-    return events;
-  }
   last_pose_ = now;
   if (stay_) {
     stay_->add_pose(now);

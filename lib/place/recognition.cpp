@@ -80,6 +80,11 @@ Recognition recognize(const PlaceVisit& known,
                       int shift,
                       const MapMatchOptions& options) {
   const Pose2 T_known_visit = aligned_by_gateways(known, visit, shift);
+  if (known.lpm.geometry().cell_m != visit.lpm.geometry().cell_m) {
+    // Taken with other settings: the maps cannot be laid on each other, the gateways can.
+    const Matrix3d covariance = Eigen::Vector3d(0.25, 0.25, 0.04).asDiagonal();
+    return {{T_known_visit, covariance}, 0.0};
+  }
   const MapMatch match = match_maps(known.lpm, visit.lpm, T_known_visit, options);
   return {match.T_reference_other, match.log_likelihood_ratio};
 }

@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t kMinBeams = 2;
 constexpr std::size_t kMaxBeams = 10'000;
 constexpr double kMaxExtent_m = 1e6;
+constexpr double kMaxSweep_s = 60.0;
 
 Error invalid(const std::string& message) {
   return {ErrorCode::kInvalidValue, "laser scan: " + message};
@@ -42,6 +43,9 @@ Status validate(const LaserScan& scan) {
   if (static_cast<double>(*high) - static_cast<double>(*low) > 2.0 * kPi + kRounding_rad) {
     return invalid("bearings span more than a full turn");
   }
+  if (!(*high > *low)) {
+    return invalid("all beams have the same bearing");
+  }
   if (!(scan.max_range_m > 0.0 && scan.max_range_m <= kMaxExtent_m)) {
     return invalid("max range must be > 0 m, is " + std::to_string(scan.max_range_m));
   }
@@ -49,8 +53,13 @@ Status validate(const LaserScan& scan) {
                   [](float range) { return range <= 0.0F; })) {
     return invalid("a range is not greater than 0 m");
   }
-  if (!(scan.sweep_duration_s >= 0.0 && std::isfinite(scan.sweep_duration_s))) {
-    return invalid("sweep duration must be finite and not negative");
+  if (std::all_of(scan.ranges_m.begin(), scan.ranges_m.end(),
+                  [](float range) { return std::isnan(range); })) {
+    return invalid("no range says anything: all are NaN, zero or negative");
+  }
+  if (!(scan.sweep_duration_s >= 0.0 && scan.sweep_duration_s <= kMaxSweep_s)) {
+    return invalid("sweep duration must be in [0, 60] s, is " +
+                   std::to_string(scan.sweep_duration_s));
   }
   if (!is_sound(scan.T_robot_laser)) {
     return invalid("mounting pose must be finite and within 1e6 m");

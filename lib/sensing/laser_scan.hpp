@@ -25,7 +25,8 @@ struct LaserScan {
 };
 
 /// What every scan fulfils behind the inlet: 2 to 10,000 beams, as many bearings as ranges, finite
-/// bearings spanning at most a full turn, max range finite and > 0, no range <= 0.
+/// bearings that differ and span at most a full turn, max range finite and > 0, no range <= 0, at
+/// least one range that is not NaN, a sweep of at most a minute.
 [[nodiscard]] Status validate(const LaserScan& scan);
 
 }  // namespace cairn

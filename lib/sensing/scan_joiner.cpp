@@ -50,6 +50,9 @@ ScanJoiner::ScanJoiner(const JoinerOptions& options) : options_(options) {
 }
 
 void ScanJoiner::add(const OdometrySample& sample) {
+  if (is_stray(newest_odometry_, sample.time, &odometry_suspects_)) {
+    return;
+  }
   if (is_clock_step(newest_odometry_, sample.time)) {
     count_clock_step(newest_scan_, sample.time);
     release_all();
@@ -68,6 +71,9 @@ void ScanJoiner::add(const OdometrySample& sample) {
 void ScanJoiner::add(LaserScan scan) {
   if (is_duplicate(scan)) {
     ++counters_.duplicates;
+    return;
+  }
+  if (is_stray(newest_scan_, scan.time, &scan_suspects_)) {
     return;
   }
   if (is_clock_step(newest_scan_, scan.time)) {
@@ -151,6 +157,23 @@ bool ScanJoiner::is_clock_step(std::optional<TimePoint> newest, TimePoint time) 
   }
   const double ahead_s = seconds_between(*newest, time);
   return ahead_s < -options_.clock_step_back_s || ahead_s > options_.clock_step_ahead_s;
+}
+
+/// One message from another clock is a fault of that message; several that agree are a new clock.
+bool ScanJoiner::is_stray(std::optional<TimePoint> newest, TimePoint time, Suspects* suspects) {
+  constexpr int kAgreeing = 3;
+  if (!is_clock_step(newest, time)) {
+    suspects->count = 0;
+    return false;
+  }
+  const bool agrees = suspects->count > 0 && !is_clock_step(suspects->last, time);
+  *suspects = {time, agrees ? suspects->count + 1 : 1};
+  if (suspects->count < kAgreeing) {
+    ++counters_.strays;
+    return true;
+  }
+  suspects->count = 0;
+  return false;
 }
 
 void ScanJoiner::count_clock_step(std::optional<TimePoint> newest_of_other, TimePoint time) {

@@ -18,19 +18,21 @@ struct JoinedScan {
 
 /// How patiently scans and odometry are brought together. In the configuration file: "joiner".
 struct JoinerOptions {
-  double history_s = 10.0;           ///< Odometry that is kept, by its stamps. [0.1, 600]
-  double patience_s = 0.5;           ///< How long a scan waits for odometry. [0, 60]
-  double clock_step_back_s = 5.0;    ///< A longer jump back is a new clock. [0.1, 3600]
-  double clock_step_ahead_s = 3600;  ///< A longer jump ahead is a new clock. [1, 1e9]
+  double history_s = 10.0;  ///< Odometry that is kept, by its stamps. [0.1, 600]
+  double patience_s = 0.5;  ///< How long a scan waits for odometry. [0, 60]
+  /// A longer jump back, or ahead, is a stray stamp; three in a row that agree are a new clock.
+  double clock_step_back_s = 5.0;    ///< [0.1, 3600]
+  double clock_step_ahead_s = 3600;  ///< [1, 1e9]
 };
 
 /// Names every field that is out of range, with its value.
 [[nodiscard]] Status validate(const JoinerOptions& options);
 
-/// What was unusual in the streams. Nothing but exact duplicates is ever dropped.
+/// What was unusual in the streams. Nothing but exact duplicates and strays is ever dropped.
 struct JoinerCounters {
   std::uint64_t duplicates = 0;    ///< Scans dropped: same stamp and ranges as the one before.
   std::uint64_t out_of_order = 0;  ///< Scans stamped at or before an earlier one, yet passed on.
+  std::uint64_t strays = 0;        ///< Scans and odometry dropped: stamped as if by another clock.
   std::uint64_t clock_steps = 0;   ///< New clocks; odometry of the old clock is forgotten.
   std::uint64_t gaps = 0;          ///< Scans whose neighbours in odometry are > patience_s apart.
   std::uint64_t scans_without_odometry = 0;
@@ -67,6 +69,11 @@ class ScanJoiner {
   [[nodiscard]] const JoinerCounters& counters() const { return counters_; }
 
  private:
+  /// Stamps that would be of a new clock, if more of them came.
+  struct Suspects {
+    TimePoint last{};
+    int count = 0;
+  };
   struct Waiting {
     LaserScan scan;
     bool steps_back = false;        // stamped at or before an earlier scan
@@ -79,6 +86,7 @@ class ScanJoiner {
   void forget_odometry();
   [[nodiscard]] bool is_duplicate(const LaserScan& scan) const;
   [[nodiscard]] bool is_clock_step(std::optional<TimePoint> newest, TimePoint time) const;
+  bool is_stray(std::optional<TimePoint> newest, TimePoint time, Suspects* suspects);
   void count_clock_step(std::optional<TimePoint> newest_of_other, TimePoint time);
   [[nodiscard]] bool has_waited_long() const;
   [[nodiscard]] std::optional<Pose2> take_own_sample(TimePoint time);
@@ -97,6 +105,8 @@ class ScanJoiner {
   std::deque<JoinedScan> ready_;
   std::optional<TimePoint> newest_odometry_;
   std::optional<TimePoint> newest_scan_;
+  Suspects odometry_suspects_;
+  Suspects scan_suspects_;
   std::optional<LaserScan> last_scan_;
 };
 

@@ -17,6 +17,7 @@ namespace cairn {
 struct PerceivedScan {
   std::shared_ptr<const LaserScan> scan;
   LocalFix fix;
+  std::optional<Pose2> T_odom_robot;  ///< Dead reckoning at the scan, where it is known.
   /// Odometry since the scan before, in the order of arrival, as poses in the frame of the robot at
   /// that scan; the last one is of this scan itself. Poses between scans are interpolated along
   /// them. Empty where one of the two scans has no odometry.

@@ -64,7 +64,7 @@ class MappingService::Pipeline {
       std::vector<OdometrySample> between =
           between_scans_.take(joined->scan.time, joined->T_odom_robot);
       PerceivedScan perceived{std::make_shared<const LaserScan>(std::move(joined->scan)), fix,
-                              std::move(between)};
+                              joined->T_odom_robot, std::move(between)};
       since_anchor_ = compounded(since_anchor_, fix.motion);
       experience_.add(perceived);
       updates.scans.push_back(std::move(perceived));
@@ -105,7 +105,7 @@ class MappingService::Pipeline {
     return {};
   }
 
-  void resume();
+  Updates resume();
 
   void name_place_of(VisitId visit, const std::string& name) {
     CAIRN_CHECK(visit.index() < experience_.visits().size());
@@ -153,10 +153,8 @@ class MappingService::Pipeline {
 
   void detect_places(const LocalFix& fix, Updates* updates) {
     enter(Stage::kPlaces);
-    // Stamps of recorded logs may step back a little; the order of arrival is the order of events.
-    detector_time_ = std::max(detector_time_, fix.time);
     for (PlaceEvent& event :
-         place_detector_.observe(detector_time_, fix.T_lpm_robot, local_mapper_.grid())) {
+         place_detector_.observe(fix.time, fix.T_lpm_robot, local_mapper_.grid())) {
       if (event.visit) {
         take_up(experience_.anchored(*event.visit), updates);
       }
@@ -173,6 +171,7 @@ class MappingService::Pipeline {
     const VisitId id{static_cast<int>(visits.size())};
     const View view{visit.perceived.neighbourhood.star,
                     std::max(visit.perceived.arrival_gateway, 0), id};
+    resumed_ = false;
     enter(Stage::kTopology);
     experience_.add(visit);
     if (!tree_.is_started()) {
@@ -198,12 +197,10 @@ class MappingService::Pipeline {
       return false;
     }
     const PlaceVisit& last = experience_.visits().back().perceived;
-    const bool was_told_before = resumed_ && visit.left <= last.left;
-    const bool has_not_left =
-        last.departure_gateway < 0 &&
+    const bool is_at_its_spot =
         (visit.T_lpm_place.translation() - last.T_lpm_place.translation()).norm() <
-            options_.place.same_spot_m;
-    return was_told_before || has_not_left;
+        std::max(options_.place.same_spot_m, 0.5 * last.neighbourhood.radius_m);
+    return is_at_its_spot && (resumed_ || last.departure_gateway < 0);
   }
 
   void lay_out() {
@@ -250,16 +247,16 @@ class MappingService::Pipeline {
   std::map<VisitId, std::string> names_;  ///< Given by people, to the place of a visit.
   GaussianPose T_global_anchor_;          ///< The robot at the last visit's anchor.
   GaussianPose since_anchor_;             ///< Its motion since.
-  TimePoint detector_time_{};
   std::int64_t revision_ = 0;
   std::int64_t refuted_ = 0;
-  bool resumed_ = false;
+  bool resumed_ = false;  ///< And no visit to elsewhere has come since.
 };
 
-void MappingService::Pipeline::resume() {
+Updates MappingService::Pipeline::resume() {
+  Updates updates;
   const std::vector<PerceivedScan>& scans = experience_.scans();
   if (scans.empty()) {
-    return;
+    return updates;
   }
   resumed_ = true;
   // The local map is made anew from the scans that it would still hold; the detector looks on from
@@ -273,12 +270,12 @@ void MappingService::Pipeline::resume() {
     --first;
   }
   for (std::size_t i = first; i < scans.size(); ++i) {
-    local_mapper_.restore(*scans[i].scan, scans[i].fix.T_lpm_robot);
+    local_mapper_.restore(*scans[i].scan, scans[i].fix.T_lpm_robot, scans[i].T_odom_robot);
     if (i >= looks_from) {
-      Updates unused;
-      detect_places(scans[i].fix, &unused);
+      detect_places(scans[i].fix, &updates);
     }
   }
+  return updates;
 }
 
 std::shared_ptr<const MapState> MappingService::Pipeline::state() const {
@@ -357,8 +354,8 @@ void MappingService::recall(PerceivedScan scan) {
 Status MappingService::recall(Visit visit) {
   return pipeline_->recall(std::move(visit));
 }
-void MappingService::resume() {
-  pipeline_->resume();
+Updates MappingService::resume() {
+  return pipeline_->resume();
 }
 std::shared_ptr<const MapState> MappingService::state() const {
   return pipeline_->state();

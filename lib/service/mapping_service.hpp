@@ -54,11 +54,11 @@ class MappingService {
   Updates finish();
 
   /// Takes the journal up again, in its order; afterwards `resume` once. Then everything goes on as
-  /// if there had been no restart.
+  /// if there had been no restart. `resume` may find a visit that the journal does not have yet.
   void recall(PerceivedScan scan);
   /// kInvalidValue for a visit that does not follow from the scans recalled so far.
   Status recall(Visit visit);
-  void resume();
+  Updates resume();
 
   /// Calls the place that this visit was to by a name, in whatever map; empty takes it away.
   /// @pre the visit is in the experience

@@ -61,6 +61,40 @@ TEST(Options, AreAllOfThemReadFromTheFile) {
   EXPECT_EQ(to_inlet_options(*options).lasers.front().T_robot_laser.x(), 0.25);
 }
 
+/// Sets every number of the configuration to a bound of its range in turn.
+void expect_bounds_are_accepted(const Json& schema,
+                                const Json& defaults,
+                                const Json::json_pointer& at,
+                                int* checked) {
+  for (const auto& [key, property] : schema["properties"].items()) {
+    const Json::json_pointer here = at / key;
+    if (property["type"] == "object") {
+      expect_bounds_are_accepted(property, defaults, here, checked);
+      continue;
+    }
+    for (const char* const bound : {"minimum", "maximum"}) {
+      if (property.contains(bound)) {
+        Json changed = defaults;
+        changed[here] = property[bound];
+        if (property["type"] == "integer") {
+          changed[here] = property[bound].get<std::int64_t>();
+        }
+        const Result<DaemonOptions> options = read_options(changed.dump());
+        EXPECT_TRUE(options.ok()) << here.to_string() << ": " << options.error().message;
+        ++*checked;
+      }
+    }
+  }
+}
+
+TEST(Options, TheBoundsThatAreToldAreAccepted) {
+  DaemonOptions options;
+  int checked = 0;
+  expect_bounds_are_accepted(describe(&options).schema(), describe(&options).write(),
+                             Json::json_pointer(""), &checked);
+  EXPECT_GT(checked, 100);
+}
+
 TEST(Options, UnknownAndOutOfRangeOnesAreToldInOneRound) {
   const Result<DaemonOptions> options =
       read_options(R"({"lpm": {"map": {"cell_m": -1}, "colour": 3}, "topology": 7})");

@@ -23,7 +23,7 @@ inline PerceivedScan scan_at(int number, const Pose2& T_lpm_robot, const Pose2& 
   fix.motion = {T_previous_robot, 1e-4 * Matrix3d::Identity()};
   fix.is_matched = true;
   fix.note = FixNote::kMatched;
-  return {std::move(scan), fix, {}};
+  return {std::move(scan), fix, T_lpm_robot, {}};
 }
 
 /// A corner: two gateways, seen from the middle.

@@ -70,6 +70,43 @@ TEST_P(RestartTest, GoesOnWithTheSamePlacesHypothesesAndFrame) {
   EXPECT_EQ(hypotheses_after, hypotheses_before);
 }
 
+/// The journal may be cut anywhere: what is taken up again is what the journal holds, or has been
+/// added to it, so that another restart finds the same.
+TEST(RestartAnywhereTest, ASecondRestartFindsWhatTheFirstMadeKnown) {
+  const TemporaryFolder folder;
+  const std::string log = (folder / "tour.log").string();
+  ASSERT_EQ(run({CAIRN_SIM, CAIRN_SOURCE_DIR "/config/worlds/lattice.txt", "--tour", "complete",
+                 "--log", log},
+                folder)
+                .status,
+            0);
+  const std::string bytes = content_of(log);
+  const Hub hub(folder);
+  for (int cut = 1; cut <= 5; ++cut) {
+    SCOPED_TRACE(cut);
+    const std::string part = (folder / "part.log").string();
+    write_file(part, bytes.substr(0, bytes.size() * static_cast<std::size_t>(cut) / 6));
+    const std::string map = (folder / ("cut" + std::to_string(cut))).string();
+    static_cast<void>(run({CAIRND, "--replay", part, "--map", map}, folder));
+    std::vector<json> found;
+    for (int start = 0; start < 2; ++start) {
+      Process daemon({CAIRND, "--lcm-url", hub.url(), "--map", map}, folder);
+      const auto places = [&] {
+        return json::parse(
+            run({CAIRN, "places", "--json", "--lcm-url", hub.url(), "--timeout", "10"}, folder)
+                .output,
+            nullptr, false);
+      };
+      ASSERT_TRUE(eventually([&] { return places().is_object(); })) << daemon.errors();
+      found.push_back(places());
+      found.back().erase("boot_id");
+      daemon.send(SIGKILL);
+      static_cast<void>(daemon.wait());
+    }
+    EXPECT_EQ(found[0], found[1]);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(After,
                          RestartTest,
                          ::testing::Values(SIGTERM, SIGKILL),

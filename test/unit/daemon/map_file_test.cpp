@@ -124,6 +124,14 @@ TEST_F(MapFileTest, RefusesANewerFormat) {
   EXPECT_THAT(MapFile::open(path()).error().message, HasSubstr("map format 99"));
 }
 
+TEST_F(MapFileTest, IsHeldByOneAtATime) {
+  const Result<MapFile> first = MapFile::open(path());
+  const Result<MapFile> second = MapFile::open(path());
+  ASSERT_TRUE(first.ok());
+  ASSERT_FALSE(second.ok());
+  EXPECT_THAT(second.error().message, HasSubstr("another cairnd holds this map file"));
+}
+
 TEST_F(MapFileTest, SaysThatAPathCannotBeWritten) {
   const Result<MapFile> map = MapFile::open(path("no/such/folder/a.cairn"));
   ASSERT_FALSE(map.ok());

@@ -194,7 +194,7 @@ TEST(LocalMapper, GoesOnWhereRestoredScansLeftOff) {
   SimulatedLaser laser(furnished_room());
   LocalMapper restored;
   for (int i = 0; i < 30; ++i) {
-    restored.restore(laser.scan(on_a_circle(i), 0.2 * i), on_a_circle(i));
+    restored.restore(laser.scan(on_a_circle(i), 0.2 * i), on_a_circle(i), std::nullopt);
   }
   const LocalFix fix = restored.absorb({laser.scan(on_a_circle(31), 100.0), Pose2()});
   EXPECT_TRUE(fix.is_matched) << to_string(fix.note);

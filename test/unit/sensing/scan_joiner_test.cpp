@@ -120,10 +120,32 @@ TEST(ScanJoiner, StartsAfreshOnANewClock) {
     joiner.add(scan(0.0));
     joiner.add(odometry(new_clock_s, 2.0));
     joiner.add(scan(new_clock_s));
-    joiner.add(odometry(new_clock_s + 0.1, 3.0));
-    joiner.add(scan(new_clock_s + 0.1));
-    EXPECT_THAT(joined_x(&joiner), ElementsAre(1.0, 2.0, 3.0));
+    for (int i = 1; i <= 3; ++i) {
+      joiner.add(odometry(new_clock_s + 0.1 * i, 2.0 + i));
+      joiner.add(scan(new_clock_s + 0.1 * i));
+    }
+    // The first two of the new clock might be strays and are dropped; the third proves it.
+    EXPECT_THAT(joined_x(&joiner), ElementsAre(1.0, 4.0, 5.0));
     EXPECT_EQ(joiner.counters().clock_steps, 1U);
+    EXPECT_EQ(joiner.counters().strays, 4U);
+  }
+}
+
+TEST(ScanJoiner, DropsAStrayStampAndNothingElseChanges) {
+  for (const double stray_s : {-100.0, 10'000.0, 9e12}) {
+    SCOPED_TRACE(stray_s);
+    ScanJoiner joiner;
+    for (int i = 0; i < 6; ++i) {
+      if (i == 3) {
+        joiner.add(odometry(stray_s, 99.0));
+        joiner.add(scan(stray_s, 5.0F));
+      }
+      joiner.add(odometry(0.1 * i, i));
+      joiner.add(scan(0.1 * i));
+    }
+    EXPECT_THAT(joined_x(&joiner), ElementsAre(0.0, 1.0, 2.0, 3.0, 4.0, 5.0));
+    EXPECT_EQ(joiner.counters().strays, 2U);
+    EXPECT_EQ(joiner.counters().clock_steps, 0U);
   }
 }
 
