@@ -27,8 +27,9 @@ build: setup
 setup:
 	@scripts/setup
 
-package: PRESET = release
-package: build
+package: setup
+	cmake --preset release -DCAIRN_TESTS=OFF -DCAIRN_BENCH=OFF >/dev/null
+	cmake --build --preset release -j $(JOBS)
 	cpack --preset release
 
 clean:
