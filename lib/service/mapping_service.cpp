@@ -109,6 +109,10 @@ class MappingService::Pipeline {
 
   void name_place_of(VisitId visit, const std::string& name) {
     CAIRN_CHECK(visit.index() < experience_.visits().size());
+    const auto known = names_.find(visit);
+    if (known == names_.end() ? name.empty() : known->second == name) {
+      return;  // Asked again: nothing changes, so no new revision.
+    }
     if (name.empty()) {
       names_.erase(visit);
     } else {
