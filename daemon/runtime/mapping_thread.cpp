@@ -42,18 +42,16 @@ void MappingThread::run() {
   // What the journal held is published before the first reading comes.
   report({}, 0.0);
   while (!orders_.is_over()) {
-    std::optional<Order> order =
-        orders_.pop_within(std::chrono::duration<double>(options_.pause_after_s));
-    if (!order) {
-      if (!orders_.is_over()) {
-        finish_pause();
+    if (std::optional<Order> order = orders_.pop_within(std::chrono::seconds(1))) {
+      if (auto* const documents = std::get_if<Documents>(&*order)) {
+        engine_->store(*documents);
+      } else if (auto* const request = std::get_if<cairn_lcm::name_request_t>(&*order)) {
+        carry_out(*request);
+      } else {
+        carry_out(std::get<Reading>(*std::move(order)));
       }
-    } else if (auto* const documents = std::get_if<Documents>(&*order)) {
-      engine_->store(*documents);
-    } else if (auto* const request = std::get_if<cairn_lcm::name_request_t>(&*order)) {
-      carry_out(*request);
-    } else {
-      carry_out(std::get<Reading>(*std::move(order)));
+    } else if (!orders_.is_over() && is_due(last_reading_, options_.pause_after_s)) {
+      finish_pause();
     }
     commit_when_due();
     ++progress_;
@@ -71,6 +69,7 @@ void MappingThread::finish_pause() {
 
 void MappingThread::carry_out(Reading reading) {
   has_paused_ = false;
+  last_reading_ = Clock::now();
   const Clock::time_point start = Clock::now();
   const Updates updates = engine_->take(std::move(reading));
   const std::chrono::duration<double, std::milli> spent = Clock::now() - start;

@@ -89,6 +89,7 @@ class MappingThread {
   std::atomic<std::int64_t> progress_{0};
   std::chrono::steady_clock::time_point last_commit_;
   std::chrono::steady_clock::time_point last_state_;
+  std::chrono::steady_clock::time_point last_reading_;
   bool has_paused_ = true;  ///< Nothing has come since the last pause was seen to.
   std::thread thread_;
 };
