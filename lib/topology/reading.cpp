@@ -12,8 +12,8 @@ Error invalid(const std::string& what) {
   return Error{ErrorCode::kInvalidValue, what};
 }
 
-/// How far clockwise one comes through the first reading's gateways in one round of the reading's:
-/// once around exactly if each is named once and all in clockwise order.
+/// Whether no gateway is named twice and all in clockwise order: then one round of the reading is
+/// one round of the first reading, not more.
 bool is_clockwise(const std::vector<int>& gateways, int first_gateway_count) {
   std::vector<int> known;
   std::copy_if(gateways.begin(), gateways.end(), std::back_inserter(known),

@@ -20,10 +20,10 @@ struct Agreement {
 struct Entered {
   const Star& star;
   int by = 0;
+  int gateways = gateway_count(star);
 
-  [[nodiscard]] int gateways() const { return gateway_count(star); }
   [[nodiscard]] int steps_clockwise_to(int gateway) const {
-    return (gateway - by + gateways()) % gateways();
+    return (gateway - by + gateways) % gateways;
   }
 };
 
@@ -37,8 +37,8 @@ std::optional<Agreement> agreement_but_for_one(const Entered& more,
                                                Misreading misreading) {
   const ViewCode wanted = view_code(less.star, less.by);
   Agreement found{misreading};
-  for (int step = 1; step < more.gateways(); ++step) {
-    const int odd = (more.by + step) % more.gateways();
+  for (int step = 1; step < more.gateways; ++step) {
+    const int odd = (more.by + step) % more.gateways;
     const std::optional<Star> rest = without_gateway(more.star, odd);
     if (rest && view_code(*rest, odd < more.by ? more.by - 1 : more.by) == wanted) {
       found.odd_gateway = found.alternatives == 0 ? odd : found.odd_gateway;
@@ -49,7 +49,7 @@ std::optional<Agreement> agreement_but_for_one(const Entered& more,
 }
 
 std::optional<Agreement> agreement(const Entered& seen, const Entered& place) {
-  switch (seen.gateways() - place.gateways()) {
+  switch (seen.gateways - place.gateways) {
     case 0:
       return Agreement{are_alike(seen.star, seen.by, place.star, place.by)
                            ? Misreading::kNone
@@ -97,7 +97,7 @@ std::vector<int> gateways_at_place(const Entered& seen,
                                    const Entered& place,
                                    const Agreement& how) {
   std::vector<int> at_place;
-  for (int gateway = 0; gateway < seen.gateways(); ++gateway) {
+  for (int gateway = 0; gateway < seen.gateways; ++gateway) {
     int step = seen.steps_clockwise_to(gateway);
     if (how.misreading == Misreading::kFalseGateway) {
       step -= step > seen.steps_clockwise_to(how.odd_gateway) ? 1 : 0;
@@ -105,7 +105,7 @@ std::vector<int> gateways_at_place(const Entered& seen,
       step += step >= place.steps_clockwise_to(how.odd_gateway) ? 1 : 0;
     }
     const bool is_false = how.misreading == Misreading::kFalseGateway && gateway == how.odd_gateway;
-    at_place.push_back(is_false ? -1 : (place.by + step) % place.gateways());
+    at_place.push_back(is_false ? -1 : (place.by + step) % place.gateways);
   }
   return at_place;
 }
@@ -149,7 +149,7 @@ ReadingMatch match_reading(const View& view,
   for (int reading = 0; reading < reading_count(view); ++reading) {
     const Entered seen = entered(view, reading);
     const double own = log_likelihood_of(view, reading);
-    if (own - least_cost(seen.gateways() - place.gateways(), costs) <= best.log_likelihood) {
+    if (own - least_cost(seen.gateways - place.gateways, costs) <= best.log_likelihood) {
       continue;  // Also where nothing is possible.
     }
     const std::optional<Agreement> how = agreement(seen, place);
@@ -181,13 +181,13 @@ std::optional<AmendedStar> amended(const View& view,
   // The numbers begin at the lowest gateway of the place that stays, so that none before it is new.
   const std::vector<int> at_place = gateways_at_place(seen, place, *how);
   int first = arrival_gateway_of(view, reading);
-  for (int gateway = 0; gateway < seen.gateways(); ++gateway) {
+  for (int gateway = 0; gateway < seen.gateways; ++gateway) {
     const int number = at_place[static_cast<std::size_t>(gateway)];
     first = number >= 0 && number < at_place[static_cast<std::size_t>(first)] ? gateway : first;
   }
   const Entered renumbered{seen.star, first};
   std::vector<int> numbers;
-  for (int gateway = 0; gateway < seen.gateways(); ++gateway) {
+  for (int gateway = 0; gateway < seen.gateways; ++gateway) {
     numbers.push_back(renumbered.steps_clockwise_to(gateway));
   }
   AmendedStar result{rotated_to(seen.star, first), how->odd_gateway,
@@ -208,7 +208,7 @@ ReadingMatcher::ReadingMatcher(const View& view,
   CAIRN_CHECK(star.has_value());
   likeliest_class_ = stars.view_class(*star, seen.by);
   // Stars that look the same have as many gateways, so the gateway of arrival tells all others.
-  for (int gateway = 0; gateway < seen.gateways(); ++gateway) {
+  for (int gateway = 0; gateway < seen.gateways; ++gateway) {
     const std::vector<int> at_place = gateways_at_place(seen, {seen.star, gateway}, {});
     exact_.push_back({log_likelihood_of(view, likeliest), Misreading::kNone, likeliest, 0,
                       by_gateway_of_first(view, likeliest, at_place)});

@@ -43,6 +43,7 @@ struct ReadingMatch {
   [[nodiscard]] bool is_possible() const {
     return log_likelihood > -std::numeric_limits<double>::infinity();
   }
+  friend bool operator==(const ReadingMatch&, const ReadingMatch&) = default;
 };
 
 /// Compares every reading of the view, entered by its arrival gateway, with the star of a place,
