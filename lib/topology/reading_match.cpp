@@ -187,6 +187,7 @@ std::optional<AmendedStar> amended(const View& view,
   }
   const Entered renumbered{seen.star, first};
   std::vector<int> numbers;
+  numbers.reserve(at_place.size());
   for (int gateway = 0; gateway < seen.gateways; ++gateway) {
     numbers.push_back(renumbered.steps_clockwise_to(gateway));
   }

@@ -119,6 +119,22 @@ TEST(ReadingMatch, AGatewayThatTheBestReadingLacksIsNoneOfThePlace) {
             (ReadingMatch{-1.0, Misreading::kNone, 1, 0, {1, -1, 0}}));
 }
 
+TEST(ReadingMatch, OfReadingsThatFitEquallyWellTheFirstIsTaken) {
+  const Star two_bends = star_of({0, 1, 2, 3}, {1, 0, 3, 2});
+  View view = seen(tee(), 1);
+  view.others.push_back({two_bends, {1, 2, -1, 0}, -1.0});
+  // A missed gateway (5), or fragments misread (1 + 4).
+  EXPECT_EQ(match_reading(view, crossing(), 0, kTolerant).reading, 0);
+  EXPECT_EQ(match_reading(view, crossing(), 0, {3.5, kMissed, kFalse}).reading, 1);
+
+  View same_twice = seen(corridor(), 0);
+  same_twice.others.push_back({corridor(), {0, -1}, 0.0});
+  StarCatalogue stars;
+  const StarId star = stars.add(corridor());
+  EXPECT_EQ(ReadingMatcher(same_twice, stars, kStrict).match(star, 1),
+            (ReadingMatch{0.0, Misreading::kNone, 0, 0, {1, 0}}));
+}
+
 struct Misread {
   Star full;
   int full_entry = 0;
