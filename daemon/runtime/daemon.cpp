@@ -142,7 +142,7 @@ class Daemon {
   }
 
  private:
-  void take(Reading reading) {
+  void take(SensorReading reading) {
     const bool is_scan = std::holds_alternative<LaserScan>(reading);
     (is_scan ? last_scan_us_ : last_odometry_us_) = steady_us();
     ++(is_scan ? scans_received_ : odometry_received_);
@@ -188,9 +188,15 @@ class Daemon {
 
   static void log_extensions(const MappingReport& report) {
     for (const ExtendReport& extension : report.extensions) {
-      spdlog::info("visit {}: {} hypotheses ({} closures, {} new places, {} known links)",
-                   extension.visit.value, extension.leaves, extension.closures,
-                   extension.new_places, extension.known_links);
+      spdlog::info(
+          "visit {}: {} hypotheses live, {} waiting ({} closures, {} new places, {} known links)",
+          extension.visit.value, extension.leaves, extension.waiting,
+          extension.count(StepKind::kClosure), extension.count(StepKind::kNewPlace),
+          extension.count(StepKind::kKnownLink));
+      if (extension.repair) {
+        spdlog::warn("visit {}: no hypothesis explained it; blamed: {}", extension.visit.value,
+                     to_text(extension.repair->blamed));
+      }
       if (extension.guarantee_given_up) {
         spdlog::warn("visit {}: guarantee given up: {}", extension.visit.value,
                      extension.guarantee_given_up->reason);

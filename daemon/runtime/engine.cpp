@@ -84,7 +84,7 @@ Status Engine::name_place(std::int64_t place, const std::string& name) {
   return {};
 }
 
-Updates Engine::take(Reading reading) {
+Updates Engine::take(SensorReading reading) {
   Updates updates = std::visit(
       [this](auto&& value) { return service_->absorb(std::forward<decltype(value)>(value)); },
       std::move(reading));

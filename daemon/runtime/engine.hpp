@@ -16,7 +16,7 @@
 namespace cairn {
 
 /// A sound reading, as the inlets hand it on.
-using Reading = std::variant<OdometrySample, LaserScan>;
+using SensorReading = std::variant<OdometrySample, LaserScan>;
 
 /// The mapping service together with its map file: what is made known is in the journal first. Live
 /// and in a replay the same; one owner, the mapping thread.
@@ -29,7 +29,7 @@ class Engine {
 
   /// Takes a reading through the pipeline and what it gave into the journal. Visits are on the disk
   /// when this returns; scans with the next visit, `commit` or `close`.
-  Updates take(Reading reading);
+  Updates take(SensorReading reading);
   /// The input has ended.
   Updates finish();
 

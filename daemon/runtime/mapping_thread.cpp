@@ -48,7 +48,7 @@ void MappingThread::run() {
       } else if (auto* const request = std::get_if<cairn_lcm::name_request_t>(&*order)) {
         carry_out(*request);
       } else {
-        carry_out(std::get<Reading>(*std::move(order)));
+        carry_out(std::get<SensorReading>(*std::move(order)));
       }
     } else if (!orders_.is_over() && is_due(last_reading_, options_.pause_after_s)) {
       finish_pause();
@@ -67,7 +67,7 @@ void MappingThread::finish_pause() {
   }
 }
 
-void MappingThread::carry_out(Reading reading) {
+void MappingThread::carry_out(SensorReading reading) {
   has_paused_ = false;
   last_reading_ = Clock::now();
   const Clock::time_point start = Clock::now();

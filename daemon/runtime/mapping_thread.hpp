@@ -58,7 +58,7 @@ class MappingThread {
   MappingThread(MappingThread&&) = delete;
   MappingThread& operator=(MappingThread&&) = delete;
 
-  void take(Reading reading) { orders_.push(std::move(reading)); }
+  void take(SensorReading reading) { orders_.push(std::move(reading)); }
   void name(cairn_lcm::name_request_t request) { orders_.push(std::move(request)); }
   void store(Documents documents) { orders_.push(std::move(documents)); }
   [[nodiscard]] std::optional<MappingReport> next_report() { return reports_.try_pop(); }
@@ -73,9 +73,9 @@ class MappingThread {
   std::unique_ptr<Engine> stop();
 
  private:
-  using Order = std::variant<Reading, Documents, cairn_lcm::name_request_t>;
+  using Order = std::variant<SensorReading, Documents, cairn_lcm::name_request_t>;
   void run();
-  void carry_out(Reading reading);
+  void carry_out(SensorReading reading);
   void carry_out(const cairn_lcm::name_request_t& request);
   void finish_pause();
   void commit_when_due();

@@ -47,6 +47,13 @@ OptionObject& OptionObject::integer(const std::string& key,
   return add(key, Integer{value, range}, meaning);
 }
 
+OptionObject& OptionObject::integer(const std::string& key,
+                                    std::int64_t* value,
+                                    Range range,
+                                    const std::string& meaning) {
+  return add(key, Integer{value, range}, meaning);
+}
+
 OptionObject& OptionObject::flag(const std::string& key, bool* value, const std::string& meaning) {
   return add(key, value, meaning);
 }
@@ -111,7 +118,8 @@ struct OptionObject::Reader {
       expect("be a whole number in " + range_text(bound.range.low, bound.range.high));
       return;
     }
-    *bound.value = json.get<int>();
+    std::visit([&](auto* value) { *value = json.get<std::remove_pointer_t<decltype(value)>>(); },
+               bound.value);
   }
   void operator()(bool* bound) const {
     if (!json.is_boolean()) {
@@ -193,7 +201,9 @@ Status OptionObject::read(const Json& json) {
 
 struct OptionObject::Writer {
   Json operator()(const Number& bound) const { return *bound.value; }
-  Json operator()(const Integer& bound) const { return *bound.value; }
+  Json operator()(const Integer& bound) const {
+    return std::visit([](const auto* value) { return Json(*value); }, bound.value);
+  }
   Json operator()(const bool* bound) const { return *bound; }
   Json operator()(const std::string* bound) const { return *bound; }
   Json operator()(const std::vector<std::string>* bound) const { return *bound; }

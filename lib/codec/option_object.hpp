@@ -42,6 +42,10 @@ class OptionObject {
                         int* value,
                         Range range,
                         const std::string& meaning);
+  OptionObject& integer(const std::string& key,
+                        std::int64_t* value,
+                        Range range,
+                        const std::string& meaning);
   OptionObject& flag(const std::string& key, bool* value, const std::string& meaning);
   OptionObject& text(const std::string& key, std::string* value, const std::string& meaning);
   /// An enumeration: its value is the position of the name in the list.
@@ -81,7 +85,7 @@ class OptionObject {
     Range range;
   };
   struct Integer {
-    int* value;
+    std::variant<int*, std::int64_t*> value;
     Range range;
   };
   struct Choice {

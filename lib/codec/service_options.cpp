@@ -140,26 +140,47 @@ OptionObject describe(MapMatchOptions* recognition) {
 OptionObject describe(TopologyOptions* topology) {
   OptionObject object("topology", "The tree of topological maps.");
   object.flag("planar", &topology->planar, "No path segment crosses another.")
+      .number("log_penalty_handle", &topology->log_penalty_handle, {0, 10000},
+              "If not planar, of each link between two faces, in nats.")
       .flag("region_consistent", &topology->region_consistent,
             "Every path must separate a left from a right.")
-      .integer("max_hypotheses", &topology->max_hypotheses, {1, 1e7},
-               "Live hypotheses kept; what this drops is said in the status.")
-      .integer("max_broken_hypotheses", &topology->max_broken_hypotheses, {1, 1e7},
-               "Of these, how many survive a contradiction.")
+      .flag("noisy_stars", &topology->noisy_stars,
+            "Stars may be misread at the penalties below; if not, what contradicts a view dies.")
       .choice(
           "preference", [topology] { return static_cast<int>(topology->preference); },
           [topology](int value) { topology->preference = static_cast<Preference>(value); },
           {"simplest", "posterior"}, "Which hypothesis is the best one.")
+      .integer(
+          "max_hypotheses", &topology->max_hypotheses, {1, 1e7},
+          "Live hypotheses: the best ones. The others wait and come back when they are better.")
+      .integer("max_bytes", &topology->max_bytes, {65536, 1e12},
+               "Memory of the tree; what this makes it give up is said in the status.")
+      .integer("max_revivals", &topology->max_revivals, {0, 1e7},
+               "Steps of waiting hypotheses per arrival.")
+      .integer("max_repair_steps", &topology->max_repair_steps, {0, 1e7},
+               "Steps of the search for misread stars when nothing explains an arrival.")
+      .integer("max_broken_hypotheses", &topology->max_broken_hypotheses, {1, 1e7},
+               "How many go on with an arrival that nothing explains.")
       .number("log_prior_new_place", &topology->log_prior_new_place, {-1000, 0},
               "Of each place beyond the first, in nats.")
-      .number("log_penalty_break", &topology->log_penalty_break, {0, 10000},
-              "Of each observation left unexplained, in nats.")
       .number("log_penalty_misread", &topology->log_penalty_misread, {0, 10000},
               "Of each star taken to be misread, in nats.")
+      .number("log_penalty_missed_gateway", &topology->log_penalty_missed_gateway, {0, 10000},
+              "Of each gateway taken to be overlooked, in nats.")
+      .number("log_penalty_false_gateway", &topology->log_penalty_false_gateway, {0, 10000},
+              "Of each gateway taken to be imagined, in nats.")
+      .number("log_penalty_unnoticed", &topology->log_penalty_unnoticed, {0, 10000},
+              "Of each place taken to be passed without notice, in nats.")
+      .number("log_penalty_break", &topology->log_penalty_break, {0, 10000},
+              "Of each observation left unexplained, in nats.")
       .number("recognition_threshold", &topology->recognition_threshold, {0, 10000},
               "Evidence above it may overrule a star or a link, in nats.")
+      .number("max_log_evidence", &topology->max_log_evidence, {0, 1000},
+              "Evidence of same places is cut to it, in nats.")
       .number("layout_margin", &topology->layout_margin, {0, 1e6},
-              "Hypotheses further below the best are not laid out, in nats.");
+              "Hypotheses further below the best are not laid out, in nats.")
+      .number("claim_odds", &topology->claim_odds, {1, 1e12},
+              "A place is claimed after waking up once its odds reach this.");
   return object;
 }
 
@@ -216,8 +237,11 @@ OptionObject describe(PathOptions* path) {
 }  // namespace
 
 std::vector<OptionObject> describe(ServiceOptions* options) {
-  return {describe(&options->joiner),      describe(&options->lpm),      describe(&options->place),
-          describe(&options->recognition), describe(&options->topology), describe(&options->layout),
+  OptionObject topology = describe(&options->topology);
+  topology.text("evidence", &options->evidence,
+                "What speaks for or against a hypothesis: place_match, layout; \"\" is strict.");
+  return {describe(&options->joiner),      describe(&options->lpm), describe(&options->place),
+          describe(&options->recognition), std::move(topology),     describe(&options->layout),
           describe(&options->global_map),  describe(&options->path)};
 }
 

@@ -9,12 +9,15 @@ namespace cairn {
 namespace {
 
 /// Mean turn that takes the visit's outward directions to the known ones.
-double mean_turn(const std::vector<Gateway>& known, const std::vector<Gateway>& visit, int shift) {
+double mean_turn(const std::vector<Gateway>& known,
+                 const std::vector<Gateway>& visit,
+                 const std::vector<GatewayPair>& pairs) {
   double sine = 0.0;
   double cosine = 0.0;
-  for (std::size_t j = 0; j < visit.size(); ++j) {
-    const Gateway& other = known[(j + static_cast<std::size_t>(shift)) % known.size()];
-    const double turn = turn_between(visit[j].outward_bearing_rad, other.outward_bearing_rad);
+  for (const GatewayPair& pair : pairs) {
+    const double turn =
+        turn_between(visit[static_cast<std::size_t>(pair.visit)].outward_bearing_rad,
+                     known[static_cast<std::size_t>(pair.known)].outward_bearing_rad);
     sine += std::sin(turn);
     cosine += std::cos(turn);
   }
@@ -23,22 +26,21 @@ double mean_turn(const std::vector<Gateway>& known, const std::vector<Gateway>& 
 
 /// The gateways' lines laid on each other: their middles, and a point a little outward of each, so
 /// that the directions count too.
-Pose2 laid_on(const std::vector<Gateway>& known, const std::vector<Gateway>& visit, int shift) {
+Pose2 laid_on(const std::vector<Gateway>& known,
+              const std::vector<Gateway>& visit,
+              const std::vector<GatewayPair>& pairs) {
   static constexpr double kOutward_m = 2.0;
-  const auto outward = [](const Gateway& gateway) -> Vector2d {
-    return gateway.middle + kOutward_m * Vector2d(std::cos(gateway.outward_bearing_rad),
-                                                  std::sin(gateway.outward_bearing_rad));
-  };
   std::vector<Vector2d> points_known;
   std::vector<Vector2d> points_visit;
-  for (std::size_t j = 0; j < visit.size(); ++j) {
-    const Gateway& other = known[(j + static_cast<std::size_t>(shift)) % known.size()];
-    points_known.push_back(other.middle);
-    points_known.push_back(outward(other));
-    points_visit.push_back(visit[j].middle);
-    points_visit.push_back(outward(visit[j]));
+  const auto add = [](const Gateway& gateway, std::vector<Vector2d>& points) {
+    points.push_back(gateway.middle);
+    points.push_back(gateway.middle + kOutward_m * gateway.outward());
+  };
+  for (const GatewayPair& pair : pairs) {
+    add(known[static_cast<std::size_t>(pair.known)], points_known);
+    add(visit[static_cast<std::size_t>(pair.visit)], points_visit);
   }
-  return aligned(points_known, points_visit, mean_turn(known, visit, shift));
+  return aligned(points_known, points_visit, mean_turn(known, visit, pairs));
 }
 
 }  // namespace
@@ -68,18 +70,30 @@ Pose2 aligned(const std::vector<Vector2d>& points_a,
   return {Vector2d(mean_a - rotated), theta};
 }
 
-Pose2 aligned_by_gateways(const PlaceVisit& known, const PlaceVisit& visit, int shift) {
-  const std::vector<Gateway>& known_gateways = known.neighbourhood.gateways;
-  const std::vector<Gateway>& visit_gateways = visit.neighbourhood.gateways;
-  CAIRN_CHECK(!known_gateways.empty() && known_gateways.size() == visit_gateways.size());
-  return laid_on(known_gateways, visit_gateways, shift);
+std::vector<GatewayPair> paired_gateways(int known_count, int visit_count, GatewayPair pair) {
+  if (known_count != visit_count) {
+    return {pair};
+  }
+  std::vector<GatewayPair> pairs;
+  for (int gateway = 0; gateway < visit_count; ++gateway) {
+    const int shift = pair.known - pair.visit + known_count;
+    pairs.push_back({(gateway + shift) % known_count, gateway});
+  }
+  return pairs;
+}
+
+Pose2 aligned_by_gateways(const PlaceVisit& known,
+                          const PlaceVisit& visit,
+                          const std::vector<GatewayPair>& pairs) {
+  CAIRN_CHECK(!pairs.empty());
+  return laid_on(known.neighbourhood.gateways, visit.neighbourhood.gateways, pairs);
 }
 
 Recognition recognize(const PlaceVisit& known,
                       const PlaceVisit& visit,
-                      int shift,
+                      const std::vector<GatewayPair>& pairs,
                       const MapMatchOptions& options) {
-  const Pose2 T_known_visit = aligned_by_gateways(known, visit, shift);
+  const Pose2 T_known_visit = aligned_by_gateways(known, visit, pairs);
   if (known.lpm.geometry().cell_m != visit.lpm.geometry().cell_m) {
     // Taken with other settings: the maps cannot be laid on each other, the gateways can.
     const Matrix3d covariance = Eigen::Vector3d(0.25, 0.25, 0.04).asDiagonal();

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <compare>
+#include <vector>
+
 #include "geometry/gaussian_pose.hpp"
 #include "lpm/map_matching.hpp"
 #include "place/place_detector.hpp"
@@ -13,24 +16,37 @@ struct Recognition {
       0.0;  ///< ln p(both maps | same place) - ln p(both maps | different).
 };
 
-/// Compares a visit with a known one under the alignment in which gateway j of the visit is gateway
-/// (j + shift) mod n of the known place: first the gateways are laid on each other, then the maps
-/// are matched from there.
+/// A gateway of the known place that is one of the visit's, each in the numbers of its own star.
+struct GatewayPair {
+  int known = 0;
+  int visit = 0;
+  friend auto operator<=>(const GatewayPair&, const GatewayPair&) = default;
+};
+
+/// All gateways that are the same, if one pair is: where both visits saw as many, the others follow
+/// clockwise; where one of them missed some, only the pair itself is sure.
+/// @pre the gateways exist
+[[nodiscard]] std::vector<GatewayPair> paired_gateways(int known_count,
+                                                       int visit_count,
+                                                       GatewayPair pair);
+
+/// Compares a visit with a known one whose gateways correspond: first the gateways are laid on each
+/// other, then the maps are matched from there.
 ///
 /// Source: Kuipers et al., ICRA 2004, Sec. III-D: matching views is (a) isomorphic local topologies
 /// and (b) matching LPMs, "with alignment given qualitatively by the corresponding gateways"; the
 /// pose is L_i of Modayil et al., IROS 2004, Sec. IV-B.
-/// @pre both have the same number of gateways, at least one
+/// @pre at least one pair, of gateways that exist
 [[nodiscard]] Recognition recognize(const PlaceVisit& known,
                                     const PlaceVisit& visit,
-                                    int shift,
+                                    const std::vector<GatewayPair>& pairs,
                                     const MapMatchOptions& options);
 
-/// T_known_visit by the gateways alone, laid on each other under that alignment.
+/// T_known_visit by the gateways alone, laid on each other.
 /// @pre as of `recognize`
 [[nodiscard]] Pose2 aligned_by_gateways(const PlaceVisit& known,
                                         const PlaceVisit& visit,
-                                        int shift);
+                                        const std::vector<GatewayPair>& pairs);
 
 /// The rigid transform T_a_b that takes points b closest to points a, in the sense of least
 /// squares. With one pair, or coinciding points, only the position is determined:

@@ -70,8 +70,38 @@ std::vector<int> path_of_gateway(const TopologicalMap& map,
 }
 
 GatewayRef gateway_of_place(const TopologicalMap& map, VisitId visit, int gateway) {
-  const VisitedPlace at = map.at_visit(visit);
-  return {at.place, (gateway + at.shift) % map.gateway_count(at.place)};
+  return {map.at_visit(visit).place, map.gateway_at(visit, gateway)};
+}
+
+/// By place and gateway, as the first visit that noticed it saw it, in the place frame.
+std::vector<std::vector<Gateway>> seen_gateways(const TopologicalMap& map,
+                                                const Experience& experience,
+                                                const MetricalMap& metrical) {
+  std::vector<std::vector<Gateway>> seen;
+  std::vector<std::vector<bool>> is_seen;
+  for (PlaceId place{0}; place.value < map.place_count(); ++place.value) {
+    const auto count = static_cast<std::size_t>(map.gateway_count(place));
+    seen.emplace_back(count);
+    is_seen.emplace_back(count, false);
+  }
+  for (VisitId visit{0}; visit.value < map.visit_count(); ++visit.value) {
+    const std::size_t place = map.at_visit(visit).place.index();
+    const std::vector<Gateway>& gateways =
+        experience.visits()[visit.index()].perceived.neighbourhood.gateways;
+    const Pose2 T_place_visit =
+        metrical.layout.T_global_place[place].inverse() * metrical.T_global_visit[visit.index()];
+    for (std::size_t j = 0; j < gateways.size(); ++j) {
+      const int gateway = map.gateway_at(visit, static_cast<int>(j));
+      if (gateway >= 0 && !is_seen[place][static_cast<std::size_t>(gateway)]) {
+        is_seen[place][static_cast<std::size_t>(gateway)] = true;
+        seen[place][static_cast<std::size_t>(gateway)] =
+            visit == map.first_visit(map.at_visit(visit).place)
+                ? gateways[j]
+                : transformed(T_place_visit, gateways[j]);
+      }
+    }
+  }
+  return seen;
 }
 
 }  // namespace
@@ -127,12 +157,13 @@ std::vector<TimedPose> with_poses_between(const std::vector<PerceivedScan>& scan
 
 std::vector<MappedPlace> mapped_places(const TopologicalMap& map,
                                        const Experience& experience,
-                                       const PlaceLayout& layout) {
+                                       const MetricalMap& metrical) {
+  const PlaceLayout& layout = metrical.layout;
+  const std::vector<std::vector<Gateway>> seen = seen_gateways(map, experience, metrical);
   const std::vector<Path> paths = trace_paths(map);
   std::vector<MappedPlace> places;
   for (int p = 0; p < map.place_count(); ++p) {
     const PlaceId id{p};
-    const PlaceVisit& first = experience.visits()[map.first_visit(id).index()].perceived;
     const std::vector<int> path_of = path_of_gateway(map, paths, id);
     MappedPlace place;
     place.id = p;
@@ -140,8 +171,7 @@ std::vector<MappedPlace> mapped_places(const TopologicalMap& map,
     place.star = large_scale_text(map.star(id), 0);
     for (int g = 0; g < map.gateway_count(id); ++g) {
       const auto index = static_cast<std::size_t>(g);
-      place.gateways.push_back(
-          {first.neighbourhood.gateways[index], map.is_pending({id, g}), path_of[index]});
+      place.gateways.push_back({seen[id.index()][index], map.is_pending({id, g}), path_of[index]});
     }
     places.push_back(std::move(place));
   }
@@ -157,11 +187,19 @@ std::vector<MappedSegment> mapped_segments(const TopologicalMap& map,
                                            const std::vector<TravelConstraint>& constraints) {
   std::vector<MappedSegment> segments;
   std::map<std::pair<GatewayRef, GatewayRef>, std::size_t> known;
+  std::size_t travel = 0;
   for (int v = 0; v + 1 < map.visit_count(); ++v) {
+    if (map.is_carried(VisitId{v + 1})) {
+      continue;
+    }
+    const GaussianPose& travelled = constraints[travel++].T_from_to;
     const PlaceVisit& visit = experience.visits()[static_cast<std::size_t>(v)].perceived;
     const PlaceVisit& next = experience.visits()[static_cast<std::size_t>(v) + 1].perceived;
     GatewayRef from = gateway_of_place(map, VisitId{v}, departure_gateway(visit, next));
     GatewayRef to = gateway_of_place(map, VisitId{v + 1}, std::max(next.arrival_gateway, 0));
+    if (from.gateway < 0 || to.gateway < 0) {
+      continue;  // The map takes one of them for imagined.
+    }
     const bool is_reversed = to < from;
     if (is_reversed) {
       std::swap(from, to);
@@ -175,7 +213,6 @@ std::vector<MappedSegment> mapped_segments(const TopologicalMap& map,
       segment.to_gateway = to.gateway;
       segment.first_scan = experience.visits()[static_cast<std::size_t>(v)].anchor_scan;
       segment.last_scan = experience.visits()[static_cast<std::size_t>(v) + 1].anchor_scan;
-      const GaussianPose& travelled = constraints[static_cast<std::size_t>(v)].T_from_to;
       const Matrix3d covariance =
           is_reversed ? inverted(travelled).covariance : travelled.covariance;
       segment.T_from_to = {layout.T_global_place[from.place.index()].inverse() *
@@ -193,12 +230,14 @@ std::vector<MappedSegment> mapped_segments(const TopologicalMap& map,
 
 std::vector<HypothesisSummary> summaries(const HypothesisTree& tree, std::size_t count) {
   const std::vector<double> probabilities = tree.probabilities();
+  const std::vector<Hypothesis> fringe = tree.fringe();
   std::vector<HypothesisSummary> all;
-  for (std::size_t i = 0; i < std::min(count, tree.fringe().size()); ++i) {
-    const Hypothesis& hypothesis = tree.fringe()[i];
+  for (std::size_t i = 0; i < std::min(count, fringe.size()); ++i) {
+    const Hypothesis& hypothesis = fringe[i];
+    const TopologicalMap map = tree.map(hypothesis.id);
     all.push_back({hypothesis.id.value, hypothesis.parent.value, hypothesis.log_posterior(),
-                   probabilities[i], hypothesis.map.place_count(), hypothesis.map.path_count(),
-                   hypothesis.map.closure_count(), hypothesis.map.pending_count()});
+                   probabilities[i], hypothesis.place_count, hypothesis.path_count,
+                   map.closure_count(), map.pending_count()});
   }
   return all;
 }

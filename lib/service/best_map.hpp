@@ -37,7 +37,7 @@ struct MetricalMap {
 /// Places with gateways and stars, as they are published.
 [[nodiscard]] std::vector<MappedPlace> mapped_places(const TopologicalMap& map,
                                                      const Experience& experience,
-                                                     const PlaceLayout& layout);
+                                                     const MetricalMap& metrical);
 
 /// Segments that were travelled, as they are published, in the order of their first travel.
 [[nodiscard]] std::vector<MappedSegment> mapped_segments(

@@ -79,7 +79,9 @@ struct MapState {
   std::vector<MappedSegment> segments;
   std::vector<HypothesisSummary> hypotheses;  ///< Best first; the best ones only.
   std::int64_t live_count = 0;
+  std::int64_t waiting_count = 0;  ///< Consistent ones that are not live, as others are better.
   std::int64_t refuted_count = 0;
+  std::int64_t refused_visits = 0;          ///< Stars that are no valid view.
   std::int64_t guarantee_given_up_at = -1;  ///< Visit number; -1: every consistent map is alive.
   std::string guarantee_reason;
   std::vector<PosedScan> trajectory;  ///< Every scan so far: H(x).

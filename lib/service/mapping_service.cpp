@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -27,9 +28,8 @@ Action action_between(const PlaceVisit& from, const PlaceVisit& to) {
 
 /// Ways to extend a hypothesis that this arrival has ruled out.
 std::int64_t refuted_by(const ExtendReport& report) {
-  return report.links_contradicted + report.closures_of_other_view + report.closures_of_other_face +
-         report.closures_repeating_a_place + report.closures_against_regions +
-         report.refuted_by_evidence;
+  return std::accumulate(report.refuted.begin(), report.refuted.end(), std::int64_t{0}) -
+         report.count(Refutation::kTooManyPlaces);
 }
 
 }  // namespace
@@ -142,16 +142,22 @@ class MappingService::Pipeline {
  private:
   [[nodiscard]] Evidence evidence() const {
     Evidence evidence;
-    evidence.same_place = [this](const TopologicalMap& before, VisitId visit, PlaceId same_as,
-                                 int shift) {
-      return matcher_.log_likelihood_ratio(before.first_visit(same_as), visit, shift);
-    };
-    // The densities' normalisation is left out: it is the same for all maps of one experience.
-    evidence.layout = [this](const TopologicalMap& map) {
-      const Result<PlaceLayout> layout =
-          solve_layout(map.place_count(), matcher_.constraints(map), options_.layout);
-      return layout ? -0.5 * layout->chi2 : -std::numeric_limits<double>::infinity();
-    };
+    const Result<std::vector<EvidenceName>> names = evidence_named(options_.evidence);
+    for (const EvidenceName name : *names) {
+      if (name == EvidenceName::kPlaceMatch) {
+        evidence.same_place = [this](SeenGateway known, SeenGateway now) {
+          return matcher_.log_likelihood_ratio(known.visit, now.visit,
+                                               {known.gateway, now.gateway});
+        };
+      } else {
+        // The densities' normalisation is left out: it is the same for all maps of one experience.
+        evidence.layout = [this](const TopologicalMap& map) {
+          const Result<PlaceLayout> layout =
+              solve_layout(map.place_count(), matcher_.constraints(map), options_.layout);
+          return layout ? -0.5 * layout->chi2 : -std::numeric_limits<double>::infinity();
+        };
+      }
+    }
     return evidence;
   }
 
@@ -175,16 +181,21 @@ class MappingService::Pipeline {
     const VisitId id{static_cast<int>(visits.size())};
     const View view{visit.perceived.neighbourhood.star,
                     std::max(visit.perceived.arrival_gateway, 0), id};
+    if (!validate(view)) {
+      ++refused_visits_;  // A star beyond what the tree takes up; a later visit may see it better.
+      return;
+    }
     resumed_ = false;
     enter(Stage::kTopology);
     experience_.add(visit);
     if (!tree_.is_started()) {
-      tree_.start(view);
+      CAIRN_CHECK(tree_.start(view).ok());
     } else {
       const Action action = action_between(visits[id.index() - 1].perceived, visit.perceived);
-      const ExtendReport report = tree_.extend(action, view);
-      refuted_ += refuted_by(report);
-      updates->extensions.push_back(report);
+      Result<ExtendReport> report = tree_.extend(action, view);
+      CAIRN_CHECK(report.ok());
+      refuted_ += refuted_by(*report);
+      updates->extensions.push_back(*std::move(report));
     }
     ++revision_;
     enter(Stage::kLayout);
@@ -208,12 +219,13 @@ class MappingService::Pipeline {
   }
 
   void lay_out() {
-    const Hypothesis& best = tree_.fringe().front();
-    Result<MetricalMap> metrical = metrical_map(best.map, experience_, matcher_, options_.layout);
+    const HypothesisId best = tree_.best().id;
+    TopologicalMap map = tree_.map(best);
+    Result<MetricalMap> metrical = metrical_map(map, experience_, matcher_, options_.layout);
     // A layout that does not converge leaves the last one standing; the next visit tries again.
     if (metrical) {
       metrical_ = *std::move(metrical);
-      laid_out_ = best;
+      laid_out_ = LaidOut{best, std::move(map)};
       anchor_robot();
     }
   }
@@ -246,13 +258,19 @@ class MappingService::Pipeline {
   Experience experience_;
   VisitMatcher matcher_;
   HypothesisTree tree_;
-  std::optional<Hypothesis> laid_out_;    ///< The best one, as of the last layout.
+  /// The best hypothesis, as of the last layout.
+  struct LaidOut {
+    HypothesisId id;
+    TopologicalMap map;
+  };
+  std::optional<LaidOut> laid_out_;
   MetricalMap metrical_;                  ///< Of that hypothesis.
   std::map<VisitId, std::string> names_;  ///< Given by people, to the place of a visit.
   GaussianPose T_global_anchor_;          ///< The robot at the last visit's anchor.
   GaussianPose since_anchor_;             ///< Its motion since.
   std::int64_t revision_ = 0;
   std::int64_t refuted_ = 0;
+  std::int64_t refused_visits_ = 0;
   bool resumed_ = false;  ///< And no visit to elsewhere has come since.
 };
 
@@ -301,7 +319,7 @@ std::shared_ptr<const MapState> MappingService::Pipeline::state() const {
   if (!laid_out_) {
     return state;
   }
-  const Hypothesis& best = *laid_out_;
+  const LaidOut& best = *laid_out_;
   state->hypothesis = best.id.value;
   state->at_place = best.map.position().place.value;
   state->path_count = best.map.path_count();
@@ -309,7 +327,7 @@ std::shared_ptr<const MapState> MappingService::Pipeline::state() const {
   for (int v = 0; v < best.map.visit_count(); ++v) {
     state->place_of_visit.push_back(best.map.at_visit(VisitId{v}).place.value);
   }
-  state->places = mapped_places(best.map, experience_, metrical_.layout);
+  state->places = mapped_places(best.map, experience_, metrical_);
   for (const auto& [visit, name] : names_) {
     if (visit.index() < state->place_of_visit.size()) {
       state->places[static_cast<std::size_t>(state->place_of_visit[visit.index()])].name = name;
@@ -319,7 +337,9 @@ std::shared_ptr<const MapState> MappingService::Pipeline::state() const {
       mapped_segments(best.map, experience_, metrical_.layout, matcher_.constraints(best.map));
   state->hypotheses = summaries(tree_, kToldHypotheses);
   state->probability = state->hypotheses.front().probability;
-  state->live_count = static_cast<std::int64_t>(tree_.fringe().size());
+  state->live_count = tree_.live_count();
+  state->waiting_count = tree_.waiting_count();
+  state->refused_visits = refused_visits_;
   state->refuted_count = refuted_;
   if (tree_.guarantee_given_up()) {
     state->guarantee_given_up_at = tree_.guarantee_given_up()->visit.value;

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "topology/evidence.hpp"
+
 namespace cairn {
 
 Status validate(const ServiceOptions& options) {
@@ -14,6 +16,9 @@ Status validate(const ServiceOptions& options) {
     if (!stage) {
       complaints += (complaints.empty() ? "" : "; ") + stage.error().message;
     }
+  }
+  if (const Result<std::vector<EvidenceName>> names = evidence_named(options.evidence); !names) {
+    complaints += (complaints.empty() ? "" : "; ") + names.error().message;
   }
   if (complaints.empty()) {
     return {};

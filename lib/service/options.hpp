@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "global_map/global_map.hpp"
 #include "layout/place_layout.hpp"
 #include "lpm/lpm_options.hpp"
@@ -18,12 +20,16 @@ struct ServiceOptions {
   PlaceOptions place;
   MapMatchOptions recognition;  ///< Comparison of two visits' local maps.
   TopologyOptions topology;
+  /// What else than stars and links speaks for or against a hypothesis: names of evidence_named(),
+  /// separated by blanks; none is the papers' strict tree.
+  std::string evidence = "place_match layout";
   LayoutOptions layout;
   GlobalMapOptions global_map;
   PathOptions path;
 
   ServiceOptions() {
     // Stars read from noisy maps need the posterior; see docs/decisions/0005-order-by-posterior.md.
+    topology.noisy_stars = true;
     topology.preference = Preference::kPosterior;
     topology.max_hypotheses = 200;
     topology.log_prior_new_place = -8.0;

@@ -1,19 +1,36 @@
 #include "service/visit_matcher.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace cairn {
+namespace {
 
-const Recognition& VisitMatcher::compare(VisitId known, VisitId visit, int shift) const {
-  const auto key = std::make_tuple(known, visit, shift);
+/// Where nothing tells how a visit lies to its place.
+const GaussianPose kSomewhereAtThePlace{
+    Pose2(), Eigen::Vector3d(1.0, 1.0, kPi* kPi / 3.0).asDiagonal().toDenseMatrix()};
+
+}  // namespace
+
+std::vector<GatewayPair> VisitMatcher::pairs(VisitId known, VisitId visit, GatewayPair pair) const {
+  const std::vector<Visit>& visits = experience_.visits();
+  const auto count = [&](VisitId id) {
+    return static_cast<int>(visits[id.index()].perceived.neighbourhood.gateways.size());
+  };
+  return paired_gateways(count(known), count(visit), pair);
+}
+
+const Recognition& VisitMatcher::compare(VisitId known, VisitId visit, GatewayPair pair) const {
+  const std::vector<GatewayPair> all = pairs(known, visit, pair);
+  const auto key = std::make_tuple(known, visit, all.front());  // Of all pairs that mean the same.
   const auto found = compared_.find(key);
   if (found != compared_.end()) {
     return found->second;
   }
   const std::vector<Visit>& visits = experience_.visits();
   return compared_
-      .emplace(key, recognize(visits[known.index()].perceived, visits[visit.index()].perceived,
-                              shift, options_))
+      .emplace(key, recognize(visits[known.index()].perceived, visits[visit.index()].perceived, all,
+                              options_))
       .first->second;
 }
 
@@ -30,18 +47,18 @@ const GaussianPose& VisitMatcher::dead_reckoned(VisitId known, VisitId visit) co
   return dead_reckoned_.emplace(key, T_known_visit).first->second;
 }
 
-double VisitMatcher::log_likelihood_ratio(VisitId known, VisitId visit, int shift) const {
+double VisitMatcher::log_likelihood_ratio(VisitId known, VisitId visit, GatewayPair pair) const {
   const GaussianPose& predicted = dead_reckoned(known, visit);
   const std::vector<Visit>& visits = experience_.visits();
-  const Pose2 T_known_visit =
-      aligned_by_gateways(visits[known.index()].perceived, visits[visit.index()].perceived, shift);
+  const Pose2 T_known_visit = aligned_by_gateways(
+      visits[known.index()].perceived, visits[visit.index()].perceived, pairs(known, visit, pair));
   // Gateways alone give the pose to about half a metre; that is enough to see what is out of reach.
   const Matrix3d slack = Eigen::Vector3d(0.25, 0.25, 0.04).asDiagonal();
   if (squared_mahalanobis(T_known_visit, predicted.mean, predicted.covariance + slack) >
       kRefutedAt_sigmas * kRefutedAt_sigmas) {
     return -std::numeric_limits<double>::infinity();
   }
-  const Recognition& recognition = compare(known, visit, shift);
+  const Recognition& recognition = compare(known, visit, pair);
   const double chi2 =
       squared_mahalanobis(recognition.T_known_visit.mean, predicted.mean,
                           predicted.covariance + recognition.T_known_visit.covariance);
@@ -57,7 +74,22 @@ GaussianPose VisitMatcher::T_place_visit(const TopologicalMap& map, VisitId visi
   if (first == visit) {
     return {};
   }
-  return compare(first, visit, at.shift).T_known_visit;
+  // A gateway that both visits saw, the one of arrival if possible.
+  const std::vector<Visit>& visits = experience_.visits();
+  const int arrival = std::max(visits[visit.index()].perceived.arrival_gateway, 0);
+  const auto gateways = [&](VisitId id) {
+    return static_cast<int>(visits[id.index()].perceived.neighbourhood.gateways.size());
+  };
+  for (int turn = 0; turn < gateways(visit); ++turn) {
+    const int now = (arrival + turn) % gateways(visit);
+    for (int known = 0; known < gateways(first); ++known) {
+      const int at_place = map.gateway_at(visit, now);
+      if (at_place >= 0 && map.gateway_at(first, known) == at_place) {
+        return compare(first, visit, {known, now}).T_known_visit;
+      }
+    }
+  }
+  return kSomewhereAtThePlace;
 }
 
 std::vector<TravelConstraint> VisitMatcher::constraints(const TopologicalMap& map) const {
@@ -65,6 +97,9 @@ std::vector<TravelConstraint> VisitMatcher::constraints(const TopologicalMap& ma
   for (int i = 0; i + 1 < map.visit_count(); ++i) {
     const VisitId from{i};
     const VisitId to{i + 1};
+    if (map.is_carried(to)) {
+      continue;
+    }
     const Travel& travel = experience_.travels()[from.index()];
     constraints.push_back({map.at_visit(from).place.value, map.at_visit(to).place.value,
                            compounded(compounded(T_place_visit(map, from), travel.T_from_to),

@@ -20,21 +20,22 @@ class VisitMatcher {
   VisitMatcher(const Experience& experience, const MapMatchOptions& options)
       : experience_(experience), options_(options) {}
 
-  /// Gateway j of the later visit being gateway (j + shift) mod n of the known one.
-  /// @pre both visits have the same number of gateways, and are in the experience
-  [[nodiscard]] const Recognition& compare(VisitId known, VisitId visit, int shift) const;
+  /// The two gateways being the same; paired_gateways() tells which others are.
+  /// @pre both visits are in the experience and have the gateways
+  [[nodiscard]] const Recognition& compare(VisitId known, VisitId visit, GatewayPair pair) const;
 
   /// Natural log of how much better "the visit was to the known one's place" explains the local
   /// maps and the dead reckoning between the two visits than "it was elsewhere". Minus infinity
   /// where dead reckoning would have to be wrong by more than kRefutedAt_sigmas: then the maps are
   /// not compared.
-  [[nodiscard]] double log_likelihood_ratio(VisitId known, VisitId visit, int shift) const;
+  [[nodiscard]] double log_likelihood_ratio(VisitId known, VisitId visit, GatewayPair pair) const;
 
   /// The place frame of a visit in the frame of the place it was to: that of the place's first
   /// visit.
   [[nodiscard]] GaussianPose T_place_visit(const TopologicalMap& map, VisitId visit) const;
 
-  /// F(lambda) of every travel, between the places that the map says they joined.
+  /// F(lambda) of every travel, between the places that the map says they joined. Where the robot
+  /// was carried nothing is known.
   [[nodiscard]] std::vector<TravelConstraint> constraints(const TopologicalMap& map) const;
 
   /// Dead reckoning is given this many standard deviations before it refutes. Generous: slip and
@@ -42,12 +43,15 @@ class VisitMatcher {
   static constexpr double kRefutedAt_sigmas = 20.0;
 
  private:
+  [[nodiscard]] std::vector<GatewayPair> pairs(VisitId known,
+                                               VisitId visit,
+                                               GatewayPair pair) const;
   [[nodiscard]] const GaussianPose& dead_reckoned(VisitId known, VisitId visit) const;
 
   const Experience& experience_;
   MapMatchOptions options_;
   // Memos.
-  mutable std::map<std::tuple<VisitId, VisitId, int>, Recognition> compared_;
+  mutable std::map<std::tuple<VisitId, VisitId, GatewayPair>, Recognition> compared_;
   mutable std::map<std::pair<VisitId, VisitId>, GaussianPose> dead_reckoned_;
 };
 

@@ -140,7 +140,7 @@ MapSummary ExactSearchState::outline(const MapSummary& node, const MapChange& ch
     summary.pending -= 2;
   } else if (change.kind == MapChange::Kind::kPlace) {
     const StarFacts& facts = walk_->facts(change.star);
-    summary.arrival = map_.gateway_count() + change.target;
+    summary.arrival = map_.end_gateway() + change.target;
     summary.places += 1;
     summary.paths += facts.fragment_count - 1;
     summary.pending += facts.gateway_count - 2;

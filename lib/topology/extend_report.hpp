@@ -1,61 +1,81 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "topology/successors.hpp"
+#include "topology/reading_match.hpp"
+#include "topology/step.hpp"
 
 namespace cairn {
 
 /// Why some map that is consistent with the experience may no longer be among the hypotheses.
 enum class GuaranteeLoss {
-  kBudget,         ///< More hypotheses than TopologyOptions::max_hypotheses.
-  kContradiction,  ///< Every hypothesis was refuted; the best live on with an unexplained gateway.
+  kBudget,         ///< The memory was full (TopologyOptions::max_bytes).
+  kContradiction,  ///< Every hypothesis was refuted; an observation had to be blamed.
 };
 
-/// At which visit the guarantee "every consistent map is among the leaves" was given up, and why.
+/// At which visit the guarantee "every consistent map is among the live and waiting hypotheses" was
+/// given up, and why.
 struct GuaranteeGivenUp {
   VisitId visit;
   GuaranteeLoss loss = GuaranteeLoss::kBudget;
+  /// Everything that was given up is less probable than this (natural logarithm, not normalised).
+  double log_posterior_bound = std::numeric_limits<double>::infinity();
   std::string reason;  ///< One line for an operator.
+};
+
+/// An observation that a hypothesis takes to be wrong.
+struct Blame {
+  VisitId visit;
+  StepKind kind = StepKind::kMisread;
+  Misreading misreading = Misreading::kNone;
+  double log_likelihood = 0.0;  ///< Of the step that blames it.
+};
+
+/// "visit 7: misread star; visit 9: break"
+[[nodiscard]] std::string to_text(const std::vector<Blame>& blamed);
+
+/// What was done when no hypothesis explained an arrival.
+struct Repair {
+  std::vector<Blame> blamed;  ///< By the best hypothesis found; the latest last.
+  std::int64_t steps = 0;     ///< Of the search.
+  /// Whether the least costly blame was found; if not, the arrival itself was left unexplained.
+  bool is_explained = false;
 };
 
 /// What one arrival did to the tree.
 struct ExtendReport {
   VisitId visit;
-  std::int64_t nodes_added = 0;  ///< Consistent successors, those beyond the budget included.
-  std::int64_t known_links = 0;  ///< Leaves whose known link agreed with the view.
-  std::int64_t closures = 0;     ///< Consistent loop closures.
-  std::int64_t new_places = 0;   ///< Leaves that grew by a place.
-  std::int64_t misreadings = 0;  ///< Steps on which evidence overruled the star.
-  std::int64_t rejoins = 0;      ///< Steps on which evidence overruled a link.
-  std::int64_t links_contradicted = 0;  ///< Leaves whose known link disagrees with the view.
+  std::array<std::int64_t, kStepKinds> steps{};      ///< Consistent successors, by StepKind.
+  std::array<std::int64_t, kRefutations> refuted{};  ///< Steps that were refuted, by Refutation.
+  std::int64_t links_contradicted = 0;  ///< Of these, known links that disagree with the view.
 
-  // Closures that were refuted, by the first reason that applies.
-  std::int64_t closures_of_other_view = 0;
-  std::int64_t closures_of_other_face = 0;
-  std::int64_t closures_repeating_a_place = 0;
-  std::int64_t closures_against_regions = 0;
-  std::int64_t refuted_by_evidence = 0;  ///< Known links included.
-  std::int64_t beyond_place_bound = 0;   ///< New places that max_places forbids.
-
-  std::int64_t leaves = 0;  ///< After this arrival.
+  std::int64_t leaves = 0;    ///< Live hypotheses after this arrival.
+  std::int64_t waiting = 0;   ///< Consistent ones that wait, as others are better.
+  std::int64_t deferred = 0;  ///< That began to wait at this arrival.
+  std::int64_t revived = 0;   ///< Steps of hypotheses that waited.
   std::int64_t layouts_evaluated = 0;
   std::int64_t layouts_deferred = 0;  ///< Leaves whose posterior is an upper bound only.
 
-  std::int64_t breaks = 0;        ///< Leaves that go on although the visit contradicts them.
-  bool was_break_needed = false;  ///< No leaf explains the visit.
-  std::int64_t dropped = 0;       ///< By the budget, or not among the best at a break.
-  /// Posterior (before the layout) of the best that the budget dropped.
-  double best_dropped_log_posterior = -std::numeric_limits<double>::infinity();
+  std::int64_t breaks = 0;       ///< Leaves that go on although the visit contradicts them.
+  std::optional<Repair> repair;  ///< No leaf explained the visit.
+  std::int64_t dropped = 0;      ///< Given up for good.
   std::optional<GuaranteeGivenUp> guarantee_given_up;  ///< At this visit.
-};
+  /// All hypotheses, live and waiting, agree on everything up to this visit.
+  VisitId settled_through;
 
-/// Adds a refuted alternative to the report's counts.
-void count_refuted(const Alternative& alternative, ExtendReport& report);
-/// Adds a consistent successor.
-void count_possible(StepKind kind, ExtendReport& report);
+  [[nodiscard]] std::int64_t count(StepKind kind) const {
+    return steps[static_cast<std::size_t>(kind)];
+  }
+  [[nodiscard]] std::int64_t count(Refutation reason) const {
+    return refuted[static_cast<std::size_t>(reason)];
+  }
+  /// All consistent successors.
+  [[nodiscard]] std::int64_t nodes_added() const;
+};
 
 }  // namespace cairn

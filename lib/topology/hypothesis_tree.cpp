@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 #include "base/check.hpp"
@@ -13,275 +12,318 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// What a preference compares; `age` decides between equals, so that the order is reproducible.
-struct Rank {
-  double log_posterior = 0.0;
-  int contradictions = 0;
-  int path_count = 0;
-  int place_count = 0;
-  std::int64_t age = 0;
-};
-
-bool comes_before(const Rank& a, const Rank& b, Preference preference) {
-  const auto simplicity = [](const Rank& rank) {
-    return std::tuple(rank.contradictions, rank.path_count, rank.place_count);
-  };
-  if (preference == Preference::kPosterior) {
-    return std::tuple(-a.log_posterior, simplicity(a), a.age) <
-           std::tuple(-b.log_posterior, simplicity(b), b.age);
-  }
-  return std::tuple(simplicity(a), -a.log_posterior, a.age) <
-         std::tuple(simplicity(b), -b.log_posterior, b.age);
+MisreadingCosts costs_of(const TopologyOptions& options) {
+  return {options.log_penalty_misread, options.log_penalty_missed_gateway,
+          options.log_penalty_false_gateway};
 }
 
-void give_up_guarantee(GuaranteeLoss loss, std::string reason, ExtendReport& report) {
-  if (!report.guarantee_given_up) {
-    report.guarantee_given_up = GuaranteeGivenUp{report.visit, loss, std::move(reason)};
-  }
+WorkingMap::Rings rings_of(const TopologyOptions& options) {
+  return options.planar || options.log_penalty_handle > 0.0 ? WorkingMap::Rings::kFaces
+                                                            : WorkingMap::Rings::kOne;
 }
 
-Rank rank_of(const Hypothesis& hypothesis) {
-  return {hypothesis.log_posterior(), hypothesis.contradictions, hypothesis.map.path_count(),
-          hypothesis.map.place_count(), hypothesis.id.value};
+/// Paths that a change adds; those that it joins count negative.
+int paths_added(const StarCatalogue& stars, const MapChange& change) {
+  switch (change.kind) {
+    case MapChange::Kind::kLink:
+      return -1;
+    case MapChange::Kind::kPlace:
+    case MapChange::Kind::kInsertPlace:
+      return stars.fragment_count(change.star) - 1;
+    case MapChange::Kind::kStrayPlace:
+      return stars.fragment_count(change.star);
+    default:
+      return 0;
+  }
 }
 
 }  // namespace
 
+HypothesisTree::Engine::Engine(const TopologyOptions& chosen, Evidence given)
+    : options(chosen),
+      evidence(std::move(given)),
+      experience(stars, costs_of(chosen)),
+      cursor(nodes, stars, rings_of(chosen)),
+      successors(options, evidence, experience, stars, cursor.map()) {}
+
 HypothesisTree::HypothesisTree(const TopologyOptions& options, Evidence evidence)
-    : options_(options),
-      evidence_(std::move(evidence)),
-      stars_(std::make_shared<const StarCatalogue>()) {
+    : engine_(std::make_unique<Engine>(options, std::move(evidence))),
+      waiting_(options.preference) {
   CAIRN_CHECK(validate(options).ok());
 }
 
-void HypothesisTree::start(const View& view) {
-  CAIRN_CHECK(!is_started() && validate(view).ok() && view.visit.index() == 0);
-  const Arrival arrival = recognise(view);
-  experience_.push_back({{}, arrival});
-  const HypothesisId root{next_id_++};
-  nodes_.push_back({root, {}, view.visit, {}});
-  fringe_.push_back({root, {}, TopologicalMap(stars_, arrival)});
+HypothesisTree::~HypothesisTree() = default;
+HypothesisTree::HypothesisTree(HypothesisTree&&) noexcept = default;
+HypothesisTree& HypothesisTree::operator=(HypothesisTree&&) noexcept = default;
+
+Status HypothesisTree::start(const View& view) {
+  if (is_started()) {
+    return Error{ErrorCode::kOutOfOrder,
+                 "start: expected once, the tree has " + std::to_string(visit_count()) + " visits"};
+  }
+  if (Status status = validate(view); !status.ok()) {
+    return status;
+  }
+  if (view.visit.value != 0) {
+    return Error{ErrorCode::kOutOfOrder,
+                 "start: expected visit 0, got " + std::to_string(view.visit.value)};
+  }
+  engine_->experience.add({}, view, false);
+  plant();
+  return {};
+}
+
+Result<ExtendReport> HypothesisTree::extend(Action action,
+                                            const View& view,
+                                            const Deadline& is_time_up) {
+  return arrive(action, view, false, is_time_up);
+}
+
+Result<ExtendReport> HypothesisTree::wake_up(const View& view, const Deadline& is_time_up) {
+  return arrive({}, view, true, is_time_up);
+}
+
+Result<ExtendReport> HypothesisTree::arrive(Action action,
+                                            const View& view,
+                                            bool is_carried,
+                                            const Deadline& is_time_up) {
+  if (Status status = check(action, view, is_carried); !status.ok()) {
+    return status.error();
+  }
+  engine_->experience.add(action, view, is_carried);
+  return absorb_next(is_time_up);
+}
+
+Status HypothesisTree::check(Action action, const View& view, bool is_carried) const {
+  if (!is_started()) {
+    return Error{ErrorCode::kOutOfOrder, "a travel before the start: expected start() first"};
+  }
+  if (Status status = validate(view); !status.ok()) {
+    return status;
+  }
+  if (view.visit.value != visit_count()) {
+    return Error{ErrorCode::kOutOfOrder, "visit: expected " + std::to_string(visit_count()) +
+                                             ", the next one, got " +
+                                             std::to_string(view.visit.value)};
+  }
+  const int gateways = gateway_count(engine_->experience.view(last_visit()).star);
+  if (!is_carried && (action.turn < 0 || action.turn >= gateways)) {
+    return Error{ErrorCode::kInvalidValue, "turn: expected a gateway of the place before, in [0, " +
+                                               std::to_string(gateways) + "), got " +
+                                               std::to_string(action.turn)};
+  }
+  return {};
+}
+
+/// The map of the first visit.
+void HypothesisTree::plant() {
+  Engine& engine = *engine_;
+  const ReadingMatcher& first = engine.experience.matcher(VisitId{0});
+  TreeNode root;
+  root.change = {MapChange::Kind::kNothing, first.star_id(0), VisitId{0}, kNoGateway, kNoGateway};
+  root.visit = VisitId{0};
+  root.position = first.view().arrival_gateway;
+  root_ = engine.nodes.add_root(root);
+  engine.nodes.hold(root_);
+  engine.cursor.start(root_);
+  live_ = {first_leaf()};
   node_count_ = 1;
   maps_built_ = 1;
+  best_log_posterior_ = {0.0};
+  log_bound_ = {0.0};
   ExtendReport unreported;
   lay_out(unreported);
 }
 
-ExtendReport HypothesisTree::extend(Action action, const View& view) {
-  CAIRN_CHECK(is_started() && validate(view).ok() && view.visit.index() == experience_.size());
-  const Experienced now{action, recognise(view)};
+/// The visit after the last one that the live hypotheses explain.
+ExtendReport HypothesisTree::absorb_next(const Deadline& is_time_up) {
+  Engine& engine = *engine_;
   ExtendReport report;
-  report.visit = view.visit;
-  std::vector<Candidate> candidates = successors(now, report);
-  if (candidates.empty()) {
-    candidates = break_all(now, report);
+  report.visit = VisitId{static_cast<std::int32_t>(best_log_posterior_.size())};
+  const auto refuted_before = engine.successors.refuted();
+  const std::int64_t contradicted_before = engine.successors.links_contradicted();
+  candidates_.clear();
+  amendments_.clear();
+  expand_live(is_time_up, report);
+  if (candidates_.empty()) {
+    repair(report);
   }
-  report.was_break_needed = report.breaks == static_cast<std::int64_t>(candidates.size());
-  if (report.was_break_needed) {
-    give_up_guarantee(GuaranteeLoss::kContradiction, contradiction(now), report);
-  }
-  keep_best(candidates, report);
-  grow(candidates, now.arrival);
-  experience_.push_back(now);
+  keep_best(report);
+  log_bound_.push_back(log_bound_.back() + most_gained_at(report.visit));
+  revive(report);
   lay_out(report);
-  rank();
-  forget_the_dead();
-  node_count_ += report.nodes_added;
-  maps_built_ += report.closures + report.new_places;
-  report.leaves = static_cast<std::int64_t>(fringe_.size());
+  make_room(report);
+  advance_root();
+  for (std::size_t reason = 0; reason < refuted_before.size(); ++reason) {
+    report.refuted[reason] = engine.successors.refuted()[reason] - refuted_before[reason];
+  }
+  report.links_contradicted = engine.successors.links_contradicted() - contradicted_before;
+  node_count_ += report.nodes_added();
+  maps_built_ += report.count(StepKind::kClosure) + report.count(StepKind::kNewPlace);
+  report.leaves = live_count();
+  report.waiting = waiting_count();
+  report.settled_through = settled_through();
   if (!given_up_) {
     given_up_ = report.guarantee_given_up;
   }
   return report;
 }
 
-Arrival HypothesisTree::recognise(const View& view) {
-  std::optional<StarId> star = stars_->find(view.star);
-  if (!star) {
-    // Maps handed out keep the catalogue they have: it may be read by another thread.
-    auto extended = std::make_shared<StarCatalogue>(*stars_);
-    star = extended->add(view.star);
-    stars_ = std::move(extended);
-    for (Hypothesis& leaf : fringe_) {
-      leaf.map.refer_to(stars_);
+/// No step at this visit can have a greater log-likelihood.
+double HypothesisTree::most_gained_at(VisitId visit) const {
+  const Engine& engine = *engine_;
+  if (!engine.evidence.same_place) {
+    return 0.0;
+  }
+  const double most = engine.evidence.same_place_bound ? engine.evidence.same_place_bound(visit)
+                                                       : engine.options.max_log_evidence;
+  return std::max(most, engine.options.log_prior_new_place);
+}
+
+void HypothesisTree::expand_live(const Deadline& is_time_up, ExtendReport& report) {
+  std::vector<std::size_t> order(live_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (is_time_up) {  // Then the best come first, not those that lie together.
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return comes_before(rank_of(live_[a]), rank_of(live_[b]), engine_->options.preference);
+    });
+  }
+  for (const std::size_t index : order) {
+    // The first one is always looked at, so that time alone cannot refute all.
+    if (is_time_up && index != order.front() && is_time_up()) {
+      defer(live_[index], report);
+    } else {
+      expand(live_[index], report);
     }
   }
-  return {*star, view.arrival_gateway, view.visit};
 }
 
-std::vector<HypothesisTree::Candidate> HypothesisTree::successors(const Experienced& now,
-                                                                  ExtendReport& report) const {
-  std::vector<Candidate> candidates;
-  for (std::size_t leaf = 0; leaf < fringe_.size(); ++leaf) {
-    const std::size_t before = candidates.size();
-    for (const Alternative& alternative :
-         alternatives(fringe_[leaf].map, now.action, now.arrival, options_, evidence_)) {
-      if (alternative.refuted_by == Refutation::kNone) {
-        count_possible(alternative.step.kind, report);
-        candidates.push_back(candidate(leaf, alternative, now.arrival));
-      } else {
-        count_refuted(alternative, report);
-      }
+Situation HypothesisTree::situation_of(const Leaf& leaf) const {
+  const VisitId next{leaf.visit.value + 1};
+  return {leaf.position, next, order_for(leaf, next)};
+}
+
+void HypothesisTree::expand(const Leaf& leaf, ExtendReport& report) {
+  Engine& engine = *engine_;
+  engine.cursor.at(leaf.node);
+  const Situation situation = situation_of(leaf);
+  if (engine.options.noisy_stars) {
+    engine.successors.set_support([&](PlaceId place) { return support_of(leaf, place); });
+  }
+  engine.successors.list(situation, Successors::Detail::kPossible, alternatives_);
+  const std::size_t before = candidates_.size();
+  for (const Alternative& alternative : alternatives_) {
+    if (!leaf.is_new_place_only || alternative.kind == StepKind::kNewPlace) {
+      ++report.steps[static_cast<std::size_t>(alternative.kind)];
+      candidates_.push_back(candidate_of(leaf, alternative));
     }
-    if (candidates.size() == before && may_go_on_contradicted(fringe_[leaf].map, now.action)) {
-      candidates.push_back(broken(leaf, now, report));
-    }
   }
-  return candidates;
-}
-
-bool HypothesisTree::may_go_on_contradicted(const TopologicalMap& map, Action action) const {
-  return options_.keep_contradicted && evidence_.same_place &&
-         !map.is_pending(map.departure(action)) &&
-         map.place_count() < options_.max_places.value_or(std::numeric_limits<int>::max());
-}
-
-HypothesisTree::Candidate HypothesisTree::broken(std::size_t leaf,
-                                                 const Experienced& now,
-                                                 ExtendReport& report) const {
-  const TopologicalMap& map = fringe_[leaf].map;
-  const GatewayRef departure = map.departure(now.action);
-  // From a pending gateway only the bound on places can have left no way out.
-  Alternative alternative{
-      {map.is_pending(departure) ? StepKind::kNewPlace : StepKind::kContradiction, departure, {}}};
-  alternative.log_likelihood = options_.log_prior_new_place - options_.log_penalty_break;
-  count_possible(alternative.step.kind, report);
-  ++report.breaks;
-  return candidate(leaf, alternative, now.arrival);
-}
-
-std::vector<HypothesisTree::Candidate> HypothesisTree::break_all(const Experienced& now,
-                                                                 ExtendReport& report) const {
-  const auto most = static_cast<std::size_t>(options_.max_broken_hypotheses);
-  std::vector<Candidate> candidates;
-  for (std::size_t leaf = 0; leaf < std::min(most, fringe_.size()); ++leaf) {
-    candidates.push_back(broken(leaf, now, report));
+  if (candidates_.size() == before && engine.options.noisy_stars && !leaf.is_new_place_only) {
+    ++report.breaks;
+    ++report.steps[static_cast<std::size_t>(StepKind::kContradiction)];
+    candidates_.push_back(candidate_of(leaf, engine.successors.unexplained(situation)));
   }
-  report.dropped = static_cast<std::int64_t>(fringe_.size() - candidates.size());
-  return candidates;
 }
 
-/// The best hypothesis stands for all: it is the one an operator will ask about.
-std::string HypothesisTree::contradiction(const Experienced& now) const {
-  const TopologicalMap& best = fringe_.front().map;
-  std::string text = "no hypothesis explains the visit; in the best one: ";
-  for (const Alternative& alternative :
-       alternatives(best, now.action, now.arrival, options_, evidence_)) {
-    text += describe(best, alternative, now.arrival) + "; ";
-  }
-  return text.substr(0, text.size() - 2);
-}
-
-HypothesisTree::Candidate HypothesisTree::candidate(std::size_t leaf,
-                                                    const Alternative& alternative,
-                                                    const Arrival& arrival) const {
-  const Hypothesis& parent = fringe_[leaf];
-  const StepKind kind = alternative.step.kind;
-  const bool is_place_added = kind == StepKind::kNewPlace || kind == StepKind::kContradiction;
-  // A link joins two paths; a break adds the fragments of its place without a link.
-  const bool is_link_added =
-      kind == StepKind::kNewPlace || kind == StepKind::kClosure ||
-      (kind == StepKind::kMisread && parent.map.is_pending(alternative.step.departure));
+HypothesisTree::Candidate HypothesisTree::candidate_of(const Leaf& leaf,
+                                                       const Alternative& alternative) {
+  const Engine& engine = *engine_;
   Candidate next;
   next.leaf = leaf;
-  next.step = alternative.step;
-  next.log_steps = parent.log_steps + alternative.log_likelihood;
-  next.log_posterior = next.log_steps + parent.log_layout;
-  const bool is_contradiction =
-      kind == StepKind::kContradiction || kind == StepKind::kMisread || kind == StepKind::kRejoin;
-  next.contradictions = parent.contradictions + (is_contradiction ? 1 : 0);
-  next.path_count = parent.map.path_count() - (is_link_added ? 1 : 0) +
-                    (is_place_added ? stars_->fragment_count(arrival.star) : 0);
-  next.place_count = parent.map.place_count() + (is_place_added ? 1 : 0);
+  next.leaf.visit.value += 1;
+  next.leaf.is_new_place_only = false;
+  next.leaf.position = alternative.position;
+  next.leaf.log_steps += alternative.log_likelihood;
+  next.leaf.contradictions += is_contradiction(alternative.kind) ? 1 : 0;
+  next.leaf.place_count += adds_place(alternative.change) ? 1 : 0;
+  next.paths_added = paths_added(engine.stars, alternative.change);
+  next.parent_position = leaf.position;
+  next.kind = alternative.kind;
+  next.misreading = alternative.misreading;
+  next.log_likelihood = alternative.log_likelihood;
+  next.change = alternative.change;
+  if (alternative.amendment.kind != MapChange::Kind::kNothing) {
+    const WorkingMap& map = engine.cursor.map();
+    const PlaceId place = map.place_of(alternative.amendment.departure);
+    next.paths_added += engine.stars.fragment_count(alternative.amendment.star) -
+                        engine.stars.fragment_count(map.star(place));
+    next.amendment = static_cast<std::int32_t>(amendments_.size());
+    amendments_.push_back(alternative.amendment);
+  }
+  next.leaf.path_count += next.paths_added;
   return next;
 }
 
-void HypothesisTree::keep_best(std::vector<Candidate>& candidates, ExtendReport& report) const {
-  const auto most = static_cast<std::size_t>(options_.max_hypotheses);
-  if (candidates.size() <= most) {
-    return;
+PlaceOrder HypothesisTree::order_for(const Leaf& leaf, VisitId visit) const {
+  PlaceOrder order;
+  if (!assertions_.is_any_in_force()) {
+    return order;
   }
-  std::vector<std::size_t> order(candidates.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto is_better = [&](std::size_t a, std::size_t b) {
-    const auto rank_at = [&](std::size_t index) {
-      const Candidate& next = candidates[index];
-      return Rank{next.log_posterior, next.contradictions, next.path_count, next.place_count,
-                  static_cast<std::int64_t>(index)};
-    };
-    return comes_before(rank_at(a), rank_at(b), options_.preference);
-  };
-  const auto first_dropped = order.begin() + static_cast<std::ptrdiff_t>(most);
-  std::nth_element(order.begin(), first_dropped, order.end(), is_better);
-  for (auto dropped = first_dropped; dropped != order.end(); ++dropped) {
-    report.best_dropped_log_posterior =
-        std::max(report.best_dropped_log_posterior, candidates[*dropped].log_posterior);
+  for (const OperatorAssertion& assertion : assertions_.ending_at(visit)) {
+    const std::optional<PlaceId> other = place_of_visit(leaf, std::min(assertion.a, assertion.b));
+    if (assertion.is_same) {
+      order.must_be = other;
+    } else if (other) {
+      order.must_not_be.push_back(*other);
+    }
   }
-  report.dropped += static_cast<std::int64_t>(order.size() - most);
-  give_up_guarantee(
-      GuaranteeLoss::kBudget,
-      std::to_string(order.size()) + " hypotheses, max_hypotheses is " + std::to_string(most),
-      report);
-  order.resize(most);
-  std::sort(order.begin(), order.end());
-  std::vector<Candidate> kept;
-  kept.reserve(most);
-  for (const std::size_t index : order) {
-    kept.push_back(candidates[index]);
-  }
-  candidates = std::move(kept);
+  return order;
 }
 
-void HypothesisTree::grow(const std::vector<Candidate>& candidates, const Arrival& arrival) {
-  std::vector<Hypothesis> grown;
-  grown.reserve(candidates.size());
-  for (std::size_t index = 0; index < candidates.size(); ++index) {
-    const Candidate& next = candidates[index];
-    Hypothesis& parent = fringe_[next.leaf];
-    const bool is_last_child =
-        index + 1 == candidates.size() || candidates[index + 1].leaf != next.leaf;
-    Hypothesis child{
-        parent.id,      parent.parent,     is_last_child ? std::move(parent.map) : parent.map,
-        next.log_steps, parent.log_layout, next.contradictions};
-    if (next.step.kind != StepKind::kKnownLink) {
-      child.id = HypothesisId{next_id_++};
-      child.parent = parent.id;
-      nodes_.push_back({child.id, child.parent, arrival.visit, next.step});
+/// Visits that assertions name leave a node, even where a known link was followed.
+std::optional<PlaceId> HypothesisTree::place_of_visit(const Leaf& leaf, VisitId visit) const {
+  const TreeNodes& nodes = engine_->nodes;
+  for (NodeIndex node = leaf.node; node != kNoNode; node = nodes[node].parent) {
+    if (nodes[node].visit == visit && !nodes[node].is_part) {
+      return engine_->cursor.map().place_of(nodes[node].position);
     }
-    apply(next.step, arrival, child.map);
-    CAIRN_CHECK(child.map.path_count() == next.path_count &&
-                child.map.place_count() == next.place_count);  // What it was ranked by.
-    grown.push_back(std::move(child));
   }
-  fringe_ = std::move(grown);
+  return std::nullopt;
 }
 
 void HypothesisTree::lay_out(ExtendReport& report) {
-  if (!evidence_.layout) {
+  const Engine& engine = *engine_;
+  if (!engine.evidence.layout) {
     return;
   }
   // A layout inherited from the parent is an upper bound, so the order need not be revised.
-  std::stable_sort(fringe_.begin(), fringe_.end(), [](const Hypothesis& a, const Hypothesis& b) {
-    return a.log_posterior() > b.log_posterior();
+  std::vector<std::size_t> order(live_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return live_[a].log_posterior() > live_[b].log_posterior();
   });
   double best = -kInfinity;
-  for (Hypothesis& leaf : fringe_) {
-    leaf.is_layout_deferred = leaf.log_posterior() < best - options_.layout_margin;
+  for (const std::size_t index : order) {
+    Leaf& leaf = live_[index];
+    leaf.is_layout_deferred = leaf.log_posterior() < best - engine.options.layout_margin;
     if (leaf.is_layout_deferred) {
       ++report.layouts_deferred;
       continue;
     }
-    leaf.log_layout = evidence_.layout(leaf.map);
+    leaf.log_layout = engine.evidence.layout(map_of(leaf, leaf.visit.value + 1));
     CAIRN_CHECK(leaf.log_layout < kInfinity);  // NaN compares false.
     best = std::max(best, leaf.log_posterior());
     ++report.layouts_evaluated;
   }
+  best_log_posterior_.back() = best;
 }
 
-void HypothesisTree::rank() {
-  std::sort(fringe_.begin(), fringe_.end(), [&](const Hypothesis& a, const Hypothesis& b) {
-    return comes_before(rank_of(a), rank_of(b), options_.preference);
-  });
+// What only one thing below needs is shared by all leaves.
+void HypothesisTree::advance_root() {
+  const TreeNodes& nodes = engine_->nodes;
+  if (nodes[root_].references > 1 || live_.front().node == root_) {
+    return;
+  }
+  for (const NodeIndex next : nodes.branch(live_.front().node, root_)) {
+    if (nodes[root_].references > 1) {
+      break;
+    }
+    root_ = next;
+  }
+}
+
+VisitId HypothesisTree::settled_through() const {
+  return live_.size() == 1 && waiting_.empty() ? live_.front().visit : engine_->nodes[root_].visit;
 }
 
 }  // namespace cairn

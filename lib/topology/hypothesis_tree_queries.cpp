@@ -1,43 +1,63 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
+#include <map>
 #include <tuple>
 
 #include "base/check.hpp"
-#include "star/isomorphism.hpp"
 #include "topology/hypothesis_tree.hpp"
+#include "topology/lineage.hpp"
 #include "topology/regions.hpp"
 
 namespace cairn {
-namespace {
 
-std::string text_of(GatewayRef at) {
-  return "gateway " + std::to_string(at.gateway) + " of place " + std::to_string(at.place.value);
+Hypothesis HypothesisTree::hypothesis_of(const Leaf& leaf) const {
+  const TreeNode& node = engine_->nodes[leaf.node];
+  Hypothesis hypothesis;
+  hypothesis.id = node.id;
+  hypothesis.parent = parent_of(node);
+  hypothesis.log_steps = leaf.log_steps;
+  hypothesis.log_layout = leaf.log_layout;
+  hypothesis.path_count = leaf.path_count;
+  hypothesis.place_count = leaf.place_count;
+  hypothesis.contradictions = leaf.contradictions;
+  hypothesis.is_layout_deferred = leaf.is_layout_deferred;
+  return hypothesis;
 }
 
-std::string text_of(double value) {
-  std::array<char, 32> text{};
-  static_cast<void>(std::snprintf(text.data(), text.size(), "%.4g", value));
-  return text.data();
+std::vector<Leaf> HypothesisTree::ranked() const {
+  std::vector<Leaf> ranked = live_;
+  std::sort(ranked.begin(), ranked.end(), [&](const Leaf& a, const Leaf& b) {
+    return comes_before(rank_of(a), rank_of(b), engine_->options.preference);
+  });
+  return ranked;
 }
 
-/// Where a step puts the visit; no two alternatives put it at the same place by the same gateway.
-VisitedPlace place_after(const Step& step, const Arrival& arrival, TopologicalMap map) {
-  apply(step, arrival, map);
-  return map.at_visit(arrival.visit);
+std::vector<Hypothesis> HypothesisTree::fringe() const {
+  std::vector<Hypothesis> fringe;
+  fringe.reserve(live_.size());
+  for (const Leaf& leaf : ranked()) {
+    fringe.push_back(hypothesis_of(leaf));
+  }
+  return fringe;
 }
 
-}  // namespace
+Hypothesis HypothesisTree::best() const {
+  CAIRN_CHECK(is_started());
+  return hypothesis_of(
+      *std::min_element(live_.begin(), live_.end(), [&](const Leaf& a, const Leaf& b) {
+        return comes_before(rank_of(a), rank_of(b), engine_->options.preference);
+      }));
+}
 
 std::vector<double> HypothesisTree::probabilities() const {
+  const std::vector<Leaf> leaves = ranked();
   double most = -std::numeric_limits<double>::infinity();
-  for (const Hypothesis& leaf : fringe_) {
+  for (const Leaf& leaf : leaves) {
     most = std::max(most, leaf.log_posterior());
   }
   std::vector<double> shares;
   double sum = 0.0;
-  for (const Hypothesis& leaf : fringe_) {
+  for (const Leaf& leaf : leaves) {
     // Where even the best is impossible, all are equally so.
     shares.push_back(std::isinf(most) ? 1.0 : std::exp(leaf.log_posterior() - most));
     sum += shares.back();
@@ -48,140 +68,196 @@ std::vector<double> HypothesisTree::probabilities() const {
   return shares;
 }
 
+double HypothesisTree::proven_gap() const {
+  double best = -std::numeric_limits<double>::infinity();
+  for (const Leaf& leaf : live_) {
+    best = std::max(best, leaf.log_posterior());
+  }
+  double rival = log_given_up_;
+  waiting_.for_each([&](const Leaf& leaf) {
+    rival = std::max(rival, leaf.log_posterior() - log_bound_[leaf.visit.index()]);
+  });
+  return best - (rival + log_bound_.back());
+}
+
 std::vector<HypothesisId> HypothesisTree::simplest_closed() const {
   std::vector<HypothesisId> simplest;
   std::tuple<int, int> least;
-  for (const Hypothesis& leaf : fringe_) {
-    const std::tuple simplicity(leaf.map.path_count(), leaf.map.place_count());
-    if (!leaf.map.is_closed() || (!simplest.empty() && simplicity > least) ||
-        !is_region_consistent(leaf.map)) {
+  for (const Leaf& leaf : ranked()) {
+    const std::tuple simplicity(leaf.path_count, leaf.place_count);
+    if ((!simplest.empty() && simplicity > least) ||
+        engine_->cursor.at(leaf.node).pending_count() > 0 ||
+        !is_region_consistent(map_of(leaf, visit_count()))) {
       continue;
     }
     if (simplest.empty() || simplicity < least) {
       simplest.clear();
       least = simplicity;
     }
-    simplest.push_back(leaf.id);
+    simplest.push_back(engine_->nodes[leaf.node].id);
   }
   return simplest;
 }
 
-const TopologicalMap& HypothesisTree::map(HypothesisId leaf) const {
-  return leaf_of(leaf).map;
+std::optional<HypothesisTree::PlaceClaim> HypothesisTree::claimed_place() const {
+  const std::vector<double> shares = probabilities();
+  const std::vector<Leaf> leaves = ranked();
+  std::map<VisitId, double> share_of;
+  for (std::size_t index = 0; index < leaves.size(); ++index) {
+    const WorkingMap& map = engine_->cursor.at(leaves[index].node);
+    share_of[map.first_visit(map.place_of(leaves[index].position))] += shares[index];
+  }
+  const auto best =
+      std::max_element(share_of.begin(), share_of.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  double others = 0.0;
+  for (const auto& [place, share] : share_of) {
+    others += place == best->first ? 0.0 : share;
+  }
+  const double log_odds =
+      others > 0.0 ? std::log(best->second / others) : std::numeric_limits<double>::infinity();
+  if (log_odds < std::log(engine_->options.claim_odds)) {
+    return std::nullopt;
+  }
+  return PlaceClaim{best->first, log_odds};
 }
 
-const Hypothesis& HypothesisTree::leaf_of(HypothesisId id) const {
-  const auto found = std::find_if(fringe_.begin(), fringe_.end(),
-                                  [&](const Hypothesis& leaf) { return leaf.id == id; });
-  CAIRN_CHECK(found != fringe_.end());
+const Leaf& HypothesisTree::leaf_of(HypothesisId id) const {
+  const auto found = std::find_if(live_.begin(), live_.end(), [&](const Leaf& leaf) {
+    return engine_->nodes[leaf.node].id == id;
+  });
+  CAIRN_CHECK(found != live_.end());
   return *found;
 }
 
-TopologicalMap HypothesisTree::map_at(HypothesisId leaf, VisitId visit) const {
-  CAIRN_CHECK(visit.is_valid() && visit.index() < experience_.size());
-  std::vector<const Node*> growth;  // By visit; nothing where a known link was followed.
-  growth.resize(experience_.size(), nullptr);
-  for (const Node* node = find_node(leaf_of(leaf).id); node != nullptr;
-       node = find_node(node->parent)) {
-    growth[node->visit.index()] = node;
+TopologicalMap HypothesisTree::map(HypothesisId live) const {
+  return map_of(leaf_of(live), visit_count());
+}
+
+void HypothesisTree::for_each_map(
+    const std::function<void(const Hypothesis&, const TopologicalMap&)>& visit) const {
+  for (const Leaf& leaf : ranked()) {
+    visit(hypothesis_of(leaf), map_of(leaf, visit_count()));
   }
-  TopologicalMap map(stars_, experience_.front().arrival);
-  for (std::size_t next = 1; next <= visit.index(); ++next) {
-    const Experienced& then = experience_[next];
-    if (growth[next] != nullptr) {
-      apply(growth[next]->step, then.arrival, map);
-    } else {
-      map.follow(map.departure(then.action), then.arrival);
-    }
+}
+
+TopologicalMap HypothesisTree::map_at(HypothesisId live, VisitId visit) const {
+  CAIRN_CHECK(visit.is_valid() && visit.value < visit_count());
+  return map_of(leaf_of(live), visit.value + 1);
+}
+
+Lineage HypothesisTree::lineage_of(const Leaf& leaf) const {
+  return {engine_->nodes, engine_->experience, engine_->stars, engine_->cursor.map().rings(),
+          leaf.node};
+}
+
+TopologicalMap HypothesisTree::map_of(const Leaf& leaf, int visits) const {
+  Engine& engine = *engine_;
+  if (!engine.shared_stars || engine.shared_stars->count() != engine.stars.count()) {
+    // Maps handed out keep the catalogue they have: it may be read by another thread.
+    engine.shared_stars = std::make_shared<const StarCatalogue>(engine.stars);
   }
-  return map;
+  Lineage lineage = lineage_of(leaf);
+  while (lineage.visit().value + 1 < visits) {
+    lineage.advance();
+  }
+  std::vector<TopologicalMap::PlacedVisit> placed;
+  placed.reserve(static_cast<std::size_t>(visits));
+  for (VisitId visit{0}; visit.value < visits; ++visit.value) {
+    const GatewayRef arrival = lineage.arrivals()[visit.index()];
+    const StarId star = lineage.map().star(arrival.place);
+    const View& view = engine.experience.view(visit);
+    const bool is_plain =
+        view.others.empty() && engine.experience.matcher(visit).is_exact(star, arrival.gateway);
+    placed.push_back({arrival, view.arrival_gateway,
+                      is_plain ? std::vector<int>{}
+                               : engine.experience.gateways_at(visit, star, arrival.gateway),
+                      engine.experience.is_carried(visit)});
+  }
+  return {engine.shared_stars, lineage.map(), placed};
+}
+
+/// The leaf as it was before a visit that it explains.
+Leaf HypothesisTree::before(const Leaf& leaf, VisitId visit) const {
+  Lineage lineage = lineage_of(leaf);
+  while (lineage.visit().value + 1 < visit.value) {
+    lineage.advance();
+  }
+  Leaf earlier;
+  earlier.node = lineage.node();
+  earlier.position = lineage.position();
+  earlier.visit = lineage.visit();
+  return earlier;
+}
+
+/// How many visits saw the place's star as the hypothesis takes it to be.
+int HypothesisTree::support_of(const Leaf& leaf, PlaceId place) const {
+  Lineage lineage = lineage_of(leaf);
+  while (lineage.visit() < leaf.visit) {
+    lineage.advance();
+  }
+  return lineage.support(place);
+}
+
+HypothesisId HypothesisTree::parent_of(const TreeNode& node) const {
+  NodeIndex parent = node.parent;
+  while (parent != kNoNode && engine_->nodes[parent].is_part) {
+    parent = engine_->nodes[parent].parent;
+  }
+  return parent == kNoNode ? HypothesisId{} : engine_->nodes[parent].id;
+}
+
+NodeIndex HypothesisTree::find_node(HypothesisId id) const {
+  NodeIndex found = kNoNode;
+  engine_->nodes.for_each([&](NodeIndex index, const TreeNode& node) {
+    found = node.id == id && !node.is_part ? index : found;
+  });
+  return found;
 }
 
 HypothesisId HypothesisTree::parent(HypothesisId id) const {
   CAIRN_CHECK(is_known(id));
-  return find_node(id)->parent;
-}
-
-Step HypothesisTree::step(HypothesisId id) const {
-  CAIRN_CHECK(is_known(id));
-  return find_node(id)->step;
+  return parent_of(engine_->nodes[find_node(id)]);
 }
 
 VisitId HypothesisTree::visit(HypothesisId id) const {
   CAIRN_CHECK(is_known(id));
-  return find_node(id)->visit;
+  return engine_->nodes[find_node(id)].visit;
 }
 
-std::vector<std::string> HypothesisTree::explanation(HypothesisId leaf, VisitId visit) const {
-  const VisitedPlace outcome = leaf_of(leaf).map.at_visit(visit);
-  if (visit.index() == 0) {
-    return {"visit 0: the first place"};
-  }
-  const Experienced& now = experience_[visit.index()];
-  const TopologicalMap before = map_at(leaf, VisitId{visit.value - 1});
-  std::vector<std::string> lines;
-  bool is_among_alternatives = false;
-  for (const Alternative& alternative :
-       alternatives(before, now.action, now.arrival, options_, evidence_)) {
-    const bool is_taken = alternative.refuted_by == Refutation::kNone &&
-                          place_after(alternative.step, now.arrival, before) == outcome;
-    is_among_alternatives = is_among_alternatives || is_taken;
-    lines.push_back(describe(before, alternative, now.arrival) + (is_taken ? " [taken]" : ""));
-  }
-  if (!is_among_alternatives) {
-    lines.push_back("visit " + std::to_string(visit.value) +
-                    ": nothing explains it; recorded as a new place by a break [taken]");
-  }
-  return lines;
+StepKind HypothesisTree::step(HypothesisId id) const {
+  CAIRN_CHECK(is_known(id));
+  return engine_->nodes[find_node(id)].kind;
 }
 
-std::string HypothesisTree::describe(const TopologicalMap& map,
-                                     const Alternative& alternative,
-                                     const Arrival& arrival) const {
-  const Step& step = alternative.step;
-  std::string text = "visit " + std::to_string(arrival.visit.value) + " (" +
-                     type_name(stars_->star(arrival.star)) + "), after leaving by " +
-                     text_of(step.departure) + ": " + std::string(name_of(step.kind));
-  if (step.target.place.is_valid()) {
-    text += " to " + text_of(step.target) + " (" + type_name(map.star(step.target.place)) + ")";
-  }
-  if (alternative.refuted_by == Refutation::kNone) {
-    return text + ": possible, log-likelihood " + text_of(alternative.log_likelihood);
-  }
-  return text + ": refuted: " + std::string(reason_of(alternative.refuted_by));
-}
-
-const HypothesisTree::Node* HypothesisTree::find_node(HypothesisId id) const {
-  const auto found =
-      std::lower_bound(nodes_.begin(), nodes_.end(), id,
-                       [](const Node& node, HypothesisId wanted) { return node.id < wanted; });
-  return found != nodes_.end() && found->id == id ? &*found : nullptr;
-}
-
-void HypothesisTree::forget_the_dead() {
-  constexpr std::size_t kSpareNodes = 4'096;  // So that small trees are never cut.
-  if (nodes_.size() <= 2 * nodes_to_keep_ + kSpareNodes) {
-    return;
-  }
-  const auto index_of = [&](HypothesisId id) {
-    return static_cast<std::size_t>(find_node(id) - nodes_.data());
-  };
-  std::vector<bool> is_alive(nodes_.size(), false);
-  for (const Hypothesis& leaf : fringe_) {
-    is_alive[index_of(leaf.id)] = true;
-  }
-  std::vector<Node> alive;
-  for (std::size_t index = nodes_.size(); index-- > 0;) {
-    if (is_alive[index]) {
-      alive.push_back(nodes_[index]);
-      if (nodes_[index].parent.is_valid()) {
-        is_alive[index_of(nodes_[index].parent)] = true;
-      }
+std::vector<HypothesisTree::NodeView> HypothesisTree::nodes() const {
+  std::map<HypothesisId, NodeView> by_id;
+  engine_->nodes.for_each([&](NodeIndex, const TreeNode& node) {
+    if (!node.is_part) {
+      by_id[node.id] = {node.id, parent_of(node), node.visit, node.kind,
+                        static_cast<double>(node.log_likelihood)};
     }
+  });
+  for (const Leaf& leaf : live_) {
+    by_id[engine_->nodes[leaf.node].id].is_live = true;
   }
-  std::reverse(alive.begin(), alive.end());
-  nodes_ = std::move(alive);
-  nodes_to_keep_ = nodes_.size();
+  waiting_.for_each(
+      [&](const Leaf& leaf) { by_id[engine_->nodes[leaf.node].id].is_waiting = true; });
+  std::vector<NodeView> views;
+  for (const auto& [id, view] : by_id) {
+    views.push_back(view);
+  }
+  return views;
+}
+
+HypothesisTree::Memory HypothesisTree::memory() const {
+  Memory memory;
+  memory.nodes = engine_->nodes.count();
+  memory.bytes_of_nodes = engine_->nodes.bytes();
+  memory.bytes_of_leaves = live_.capacity() * sizeof(Leaf) + waiting_.bytes();
+  memory.bytes_of_experience = engine_->experience.bytes();
+  memory.bytes_of_map = engine_->cursor.map().bytes();
+  return memory;
 }
 
 }  // namespace cairn

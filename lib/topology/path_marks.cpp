@@ -16,7 +16,9 @@ bool any_on_crossings(const WorkingMap& map, GatewayIndex end, Predicate holds) 
       if (exit == entry || exit == onward) {
         continue;
       }
-      for (GatewayIndex at = map.leads_to(exit); at != kNoGateway; at = next_entry(map, at)) {
+      GatewayIndex at = map.leads_to(exit);
+      at = at != kNoGateway && map.leads_to(at) == exit ? at : kNoGateway;
+      for (; at != kNoGateway; at = next_entry(map, at)) {
         if (holds(map.place_of(at))) {
           return true;
         }

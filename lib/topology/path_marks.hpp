@@ -18,7 +18,7 @@ enum class PathMeeting : std::uint8_t {
 /// Tells how the path of one pending gateway lies to those of others. The first is marked once for
 /// all of them. Cost: the lengths of the two paths, and of all paths that cross them.
 ///
-/// Paths here are chains of linked fragments; one-way gateways are not expected.
+/// Paths are chains of linked fragments; one-way gateways end them.
 class PathMarks {
  public:
   explicit PathMarks(const WorkingMap& map) : map_(&map) {}
@@ -40,10 +40,14 @@ class PathMarks {
 };
 
 /// The next place of a path: the gateway by which a traveller enters it who goes straight on from
-/// `entry` across its place. kNoGateway where the path ends.
+/// `entry` across its place. kNoGateway where the path ends; a one-way gateway ends it too.
 [[nodiscard]] inline GatewayIndex next_entry(const WorkingMap& map, GatewayIndex entry) {
   const GatewayIndex onward = map.through(entry);
-  return onward == kNoGateway ? kNoGateway : map.leads_to(onward);
+  if (onward == kNoGateway) {
+    return kNoGateway;
+  }
+  const GatewayIndex end = map.leads_to(onward);
+  return end != kNoGateway && map.leads_to(end) == onward ? end : kNoGateway;
 }
 
 }  // namespace cairn

@@ -205,9 +205,12 @@ ReadingMatcher::ReadingMatcher(const View& view,
     : view_(&view), stars_(&stars), costs_(costs) {
   const int likeliest = likeliest_reading(view);
   const Entered seen = entered(view, likeliest);
-  const std::optional<StarId> star = stars.find(seen.star);
-  CAIRN_CHECK(star.has_value());
-  likeliest_class_ = stars.view_class(*star, seen.by);
+  for (int reading = 0; reading < reading_count(view); ++reading) {
+    const std::optional<StarId> star = stars.find(star_of(view, reading));
+    CAIRN_CHECK(star.has_value());
+    star_ids_.push_back(*star);
+  }
+  likeliest_class_ = stars.view_class(star_id(likeliest), seen.by);
   // Stars that look the same have as many gateways, so the gateway of arrival tells all others.
   for (int gateway = 0; gateway < seen.gateways; ++gateway) {
     const std::vector<int> at_place = gateways_at_place(seen, {seen.star, gateway}, {});

@@ -106,6 +106,10 @@ class ReadingMatcher {
   }
 
   [[nodiscard]] const View& view() const { return *view_; }
+  /// @pre 0 <= reading < reading_count(view())
+  [[nodiscard]] StarId star_id(int reading) const {
+    return star_ids_[static_cast<std::size_t>(reading)];
+  }
 
  private:
   [[nodiscard]] const ReadingMatch& remembered(StarId star, int gateway);
@@ -113,6 +117,7 @@ class ReadingMatcher {
   const View* view_;
   const StarCatalogue* stars_;
   MisreadingCosts costs_;
+  std::vector<StarId> star_ids_;  ///< By reading.
   ViewClassId likeliest_class_;
   std::vector<ReadingMatch> exact_;  ///< Of the likeliest reading, by gateway of the place.
   ReadingMatch impossible_;

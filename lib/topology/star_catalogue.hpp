@@ -21,6 +21,7 @@ class StarCatalogue {
   /// @pre star is valid
   StarId add(const Star& star);
   [[nodiscard]] std::optional<StarId> find(const Star& star) const;
+  [[nodiscard]] std::size_t count() const { return entries_.size(); }
 
   [[nodiscard]] const Star& star(StarId id) const { return entries_[id.index()].star; }
   [[nodiscard]] int gateway_count(StarId id) const { return entries_[id.index()].gateway_count; }

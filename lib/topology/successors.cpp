@@ -5,267 +5,290 @@
 #include <limits>
 
 #include "base/check.hpp"
-#include "topology/paths.hpp"
-#include "topology/planarity.hpp"
-#include "topology/regions.hpp"
 
 namespace cairn {
-namespace {
 
-/// Judges what one travel may have led to. What depends on the departing gateway alone is found
-/// once.
-class Judge {
- public:
-  Judge(const TopologicalMap& map,
-        GatewayRef departure,
-        const Arrival& arrival,
-        const TopologyOptions& options,
-        const Evidence& evidence)
-      : map_(map),
-        departure_(departure),
-        arrival_(arrival),
-        options_(options),
-        evidence_(evidence) {}
+bool PlaceOrder::allows(std::optional<PlaceId> place) const {
+  if (must_be && place != must_be) {
+    return false;
+  }
+  return !place || std::find(must_not_be.begin(), must_not_be.end(), *place) == must_not_be.end();
+}
 
-  [[nodiscard]] std::vector<Alternative> at_known_link(GatewayRef target) const {
-    Alternative known{{StepKind::kKnownLink, departure_, target}};
-    if (sees(target)) {
-      known.log_likelihood = recognition(target);
-      refute_by_evidence(known);
+void Successors::list(const Situation& situation, Detail detail, std::vector<Alternative>& found) {
+  found.clear();
+  found_ = &found;
+  const Arrival arrival{situation.visit, &experience_->matcher(situation.visit), &situation.order,
+                        detail};
+  if (experience_->is_carried(situation.visit)) {
+    woken_up(arrival);
+    return;
+  }
+  const VisitId before{situation.visit.value - 1};
+  const GatewayIndex departure = experience_->departure(map_, situation.position, before,
+                                                        experience_->action(situation.visit));
+  if (departure == kNoGateway) {
+    from_unseen_gateway(situation.position, arrival);
+  } else if (map_.is_pending(departure)) {
+    at_pending_gateway(departure, arrival);
+  } else {
+    at_known_link(departure, arrival);
+  }
+}
+
+void Successors::at_known_link(GatewayIndex departure, const Arrival& arrival) {
+  const GatewayIndex target = map_.leads_to(departure);
+  const ReadingMatch& match =
+      arrival.view->match(map_.star(map_.place_of(target)), map_.number_of(target));
+  Alternative known;
+  known.kind = StepKind::kKnownLink;
+  known.departure = departure;
+  known.position = target;
+  const bool is_exact = match.is_possible() && match.misreading == Misreading::kNone;
+  if (is_exact) {
+    known.log_likelihood = match.log_likelihood + recognition(target, match, arrival.visit);
+    add(known, arrival);
+  } else {
+    ++links_contradicted_;
+    refute(Refutation::kOtherView, known, arrival);
+  }
+  if (is_noisy_) {
+    if (!is_exact) {
+      consider_misreading(departure, target, match, arrival);
+      consider_amending(departure, target, match, arrival);
+    }
+    if (!is_exact || known.log_likelihood < 0.0) {
+      consider_unnoticed(departure, arrival);
+      consider_inserting(departure, arrival);
+    }
+  }
+  if (map_.one_way_count() > 0) {
+    consider_unexplained(departure, arrival);
+  }
+}
+
+void Successors::at_pending_gateway(GatewayIndex departure, const Arrival& arrival) {
+  departing_path_.depart(departure);
+  for (GatewayIndex target = map_.next_in_ring(departure); target != departure;
+       target = map_.next_in_ring(target)) {
+    consider_closing(departure, target, 0.0, arrival);
+  }
+  const bool are_faces_kept = map_.rings() == WorkingMap::Rings::kFaces;
+  if (map_.component_count() > 1 || (are_faces_kept && !options_->planar) ||
+      arrival.detail == Detail::kAll) {
+    list_other_faces(departure, arrival);
+  }
+  if (is_noisy_) {
+    consider_rejoining(departure, arrival);
+    consider_unseen_gateways(departure, arrival);
+  }
+  consider_new_places(departure, arrival);
+}
+
+// Pending gateways out of the departing one's ring: of other parts of the map, and of other faces.
+void Successors::list_other_faces(GatewayIndex departure, const Arrival& arrival) {
+  if (map_.rings() == WorkingMap::Rings::kOne) {
+    return;
+  }
+  std::vector<GatewayIndex> ring = {departure};
+  for (GatewayIndex at = map_.next_in_ring(departure); at != departure;
+       at = map_.next_in_ring(at)) {
+    ring.push_back(at);
+  }
+  std::sort(ring.begin(), ring.end());
+  const int component = map_.component(map_.place_of(departure));
+  for (PlaceId place{0}; place.value < map_.place_count(); ++place.value) {
+    const GatewayIndex first = map_.first_gateway(place);
+    for (GatewayIndex at = first; at < first + map_.gateway_count(place); ++at) {
+      if (!map_.is_pending(at) || std::binary_search(ring.begin(), ring.end(), at)) {
+        continue;
+      }
+      if (map_.component(place) != component) {
+        consider_closing(departure, at, 0.0, arrival);
+      } else if (!options_->planar) {
+        consider_closing(departure, at, options_->log_penalty_handle, arrival);
+      } else {
+        Alternative crossing;
+        crossing.kind = StepKind::kClosure;
+        crossing.departure = departure;
+        crossing.position = at;
+        refute(Refutation::kOtherFace, crossing, arrival);
+      }
+    }
+  }
+}
+
+void Successors::consider_closing(GatewayIndex departure,
+                                  GatewayIndex target,
+                                  double penalty,
+                                  const Arrival& arrival) {
+  const PlaceId place = map_.place_of(target);
+  const ReadingMatch& match = arrival.view->match(map_.star(place), map_.number_of(target));
+  Alternative closure;
+  closure.kind = StepKind::kClosure;
+  closure.departure = departure;
+  closure.position = target;
+  closure.change = {MapChange::Kind::kLink, {}, arrival.visit, departure, target};
+  if (!match.is_possible() || match.misreading != Misreading::kNone) {
+    refute(Refutation::kOtherView, closure, arrival);
+    if (is_noisy_ && match.is_possible()) {
+      consider_misreading(departure, target, match, arrival);
+      consider_amending(departure, target, match, arrival);
+    }
+    return;
+  }
+  const Refutation refutation = refutation_of_link(departure, target);
+  if (refutation != Refutation::kNone) {
+    refute(refutation, closure, arrival);
+    return;
+  }
+  closure.log_likelihood =
+      match.log_likelihood + recognition(target, match, arrival.visit) - penalty;
+  add(closure, arrival);
+}
+
+Refutation Successors::refutation_of_link(GatewayIndex departure, GatewayIndex target) {
+  if (departing_path_.meeting(target, false) == PathMeeting::kSharePlace) {
+    return Refutation::kPlaceTwiceOnPath;
+  }
+  if (options_->region_consistent && !regions_.stay_consistent(departure, target)) {
+    return Refutation::kRegions;
+  }
+  return Refutation::kNone;
+}
+
+// One for each way to read the star.
+void Successors::consider_new_places(GatewayIndex departure, const Arrival& arrival) {
+  const View& view = arrival.view->view();
+  for (int reading = 0; reading < reading_count(view); ++reading) {
+    Alternative fresh;
+    fresh.kind = StepKind::kNewPlace;
+    fresh.departure = departure;
+    const int number = arrival_gateway_of(view, reading);
+    fresh.change = {MapChange::Kind::kPlace, arrival.view->star_id(reading), arrival.visit,
+                    departure, number};
+    fresh.position = map_.end_gateway() + number;
+    fresh.log_likelihood = options_->log_prior_new_place + log_likelihood_of(view, reading);
+    if (options_->max_places && map_.place_count() >= *options_->max_places) {
+      refute(Refutation::kTooManyPlaces, fresh, arrival);
     } else {
-      known.refuted_by = Refutation::kOtherView;
+      add(fresh, arrival);
     }
-    std::vector<Alternative> all = {known};
-    if (known.refuted_by == Refutation::kOtherView) {
-      consider_misreading(target, all);
-    }
-    if (map_.unexplained_count() > 0) {
-      consider_unexplained(target, all);
-    }
-    return all;
   }
+}
 
-  [[nodiscard]] std::vector<Alternative> at_pending_gateway() {
-    own_path_ = places_behind(map_, departure_);
-    if (options_.planar) {
-      own_face_ = pending_on_face(map_, departure_);
-      std::sort(own_face_.begin(), own_face_.end());
-    }
-    std::vector<Alternative> all;
-    for (GatewayRef at{{0}, 0}; at.place.value < map_.place_count(); ++at.place.value) {
-      const int gateways = map_.gateway_count(at.place);
-      for (at.gateway = 0; at.gateway < gateways; ++at.gateway) {
-        if (at == departure_) {
-          continue;
-        }
-        if (map_.is_pending(at)) {
-          consider_closing(at, all);
-        } else {
-          consider_rejoining(at, all);
-        }
+// The robot may be anywhere, so the gateway from which turns are counted may be any of each place.
+void Successors::woken_up(const Arrival& arrival) {
+  for (PlaceId place{0}; place.value < map_.place_count(); ++place.value) {
+    for (int number = 0; number < map_.gateway_count(place); ++number) {
+      const ReadingMatch& match = arrival.view->match(map_.star(place), number);
+      Alternative here;
+      here.kind = StepKind::kRelocated;
+      here.change = {MapChange::Kind::kNothing, {}, arrival.visit, kNoGateway, kNoGateway};
+      here.position = map_.first_gateway(place) + number;
+      here.misreading = match.misreading;
+      if (match.is_possible() && (is_noisy_ || match.misreading == Misreading::kNone)) {
+        here.log_likelihood =
+            match.log_likelihood + recognition(here.position, match, arrival.visit);
+        add(here, arrival);
+      } else {
+        refute(Refutation::kOtherView, here, arrival);
       }
     }
-    all.push_back(new_place());
-    return all;
   }
-
- private:
-  [[nodiscard]] bool sees(GatewayRef target) const {
-    return map_.view_class(target) == map_.view_class(arrival_);
+  const View& view = arrival.view->view();
+  for (int reading = 0; reading < reading_count(view); ++reading) {
+    Alternative elsewhere;
+    elsewhere.kind = StepKind::kElsewhere;
+    const int number = arrival_gateway_of(view, reading);
+    elsewhere.change = {MapChange::Kind::kStrayPlace, arrival.view->star_id(reading), arrival.visit,
+                        kNoGateway, number};
+    elsewhere.position = map_.end_gateway() + number;
+    elsewhere.log_likelihood = options_->log_prior_new_place + log_likelihood_of(view, reading);
+    add(elsewhere, arrival);
   }
+}
 
-  [[nodiscard]] double recognition(GatewayRef target) const {
-    if (!evidence_.same_place) {
-      return 0.0;
-    }
-    const int gateways = map_.gateway_count(target.place);
-    const int shift = (target.gateway - arrival_.gateway + gateways) % gateways;
-    const double ratio = evidence_.same_place(map_, arrival_.visit, target.place, shift);
+double Successors::recognition(GatewayIndex target,
+                               const ReadingMatch& match,
+                               VisitId visit) const {
+  if (!evidence_->same_place) {
+    return 0.0;
+  }
+  const PlaceId place = map_.place_of(target);
+  const VisitId known = map_.first_visit(place);
+  const View& view = experience_->view(visit);
+  const auto ask = [&](int seen_as, int now) {
+    const double ratio = evidence_->same_place({known, seen_as}, {visit, now});
     CAIRN_CHECK(ratio < std::numeric_limits<double>::infinity());  // NaN compares false.
-    return ratio;
+    return evidence_->same_place_bound ? ratio : std::min(ratio, options_->max_log_evidence);
+  };
+  if (const int seen_as = seen_number(target); seen_as >= 0) {
+    return ask(seen_as, view.arrival_gateway);
   }
-
-  static void refute_by_evidence(Alternative& alternative) {
-    if (std::isinf(alternative.log_likelihood) && alternative.log_likelihood < 0.0) {
-      alternative.refuted_by = Refutation::kEvidence;
-    }
-  }
-
-  void consider_closing(GatewayRef target, std::vector<Alternative>& all) const {
-    Alternative closure{{StepKind::kClosure, departure_, target}};
-    if (!sees(target)) {
-      closure.refuted_by = Refutation::kOtherView;
-      all.push_back(closure);
-      if (evidence_.same_place && has_as_many_gateways(target.place) &&
-          refutation_of_link(target) == Refutation::kNone) {
-        consider_misreading(target, all);
-      }
-      return;
-    }
-    closure.refuted_by = refutation_of_link(target);
-    if (closure.refuted_by == Refutation::kNone) {
-      closure.log_likelihood = recognition(target);
-      refute_by_evidence(closure);
-    }
-    all.push_back(closure);
-  }
-
-  [[nodiscard]] Refutation refutation_of_link(GatewayRef target) const {
-    if (options_.planar && map_.component(target.place) == map_.component(departure_.place) &&
-        !std::binary_search(own_face_.begin(), own_face_.end(), target)) {
-      return Refutation::kOtherFace;
-    }
-    const std::vector<PlaceId> other_path = places_behind(map_, target);
-    if (std::find_first_of(other_path.begin(), other_path.end(), own_path_.begin(),
-                           own_path_.end()) != other_path.end()) {
-      return Refutation::kPlaceTwiceOnPath;
-    }
-    if (options_.region_consistent) {
-      TopologicalMap closed = map_;
-      closed.close(departure_, target, arrival_);
-      if (!is_region_consistent(closed)) {
-        return Refutation::kRegions;
-      }
-    }
-    return Refutation::kNone;
-  }
-
-  /// A shift between the gateways is defined only where their numbers agree.
-  [[nodiscard]] bool has_as_many_gateways(PlaceId place) const {
-    return map_.gateway_count(place) == map_.gateway_count(arrival_);
-  }
-
-  void consider_misreading(GatewayRef target, std::vector<Alternative>& all) const {
-    if (!has_as_many_gateways(target.place)) {
-      return;
-    }
-    const double ratio = recognition(target);
-    if (ratio > options_.recognition_threshold) {
-      all.push_back({{StepKind::kMisread, departure_, target},
-                     Refutation::kNone,
-                     ratio - options_.log_penalty_misread});
+  // The first visit missed the gateway of arrival; another one tells as well how the stars lie.
+  for (std::size_t now = 0; now < match.gateway_of_view.size(); ++now) {
+    const int number = match.gateway_of_view[now];
+    const int seen_as = number < 0 ? -1 : seen_number(map_.first_gateway(place) + number);
+    if (seen_as >= 0) {
+      return ask(seen_as, static_cast<int>(now));
     }
   }
-
-  /// A gateway that leads here one way may also be where a travel from here ends: the corridor of
-  /// an earlier contradiction.
-  void consider_unexplained(GatewayRef known_target, std::vector<Alternative>& all) const {
-    for (GatewayRef at{{0}, 0}; at.place.value < map_.place_count(); ++at.place.value) {
-      const int gateways = map_.gateway_count(at.place);
-      for (at.gateway = 0; at.gateway < gateways; ++at.gateway) {
-        if (at != known_target && map_.leads_to(at) == departure_ && sees(at)) {
-          Alternative again{{StepKind::kRejoin, departure_, at}};
-          again.log_likelihood = recognition(at) - options_.log_penalty_misread;
-          refute_by_evidence(again);
-          all.push_back(again);
-        }
-      }
-    }
-  }
-
-  void consider_rejoining(GatewayRef target, std::vector<Alternative>& all) const {
-    // A map without contradictions gives no reason to doubt its links.
-    if (map_.unexplained_count() == 0 || !evidence_.same_place || !sees(target)) {
-      return;
-    }
-    const double ratio = recognition(target);
-    if (ratio > options_.recognition_threshold) {
-      all.push_back({{StepKind::kRejoin, departure_, target},
-                     Refutation::kNone,
-                     ratio - options_.log_penalty_break});
-    }
-  }
-
-  [[nodiscard]] Alternative new_place() const {
-    Alternative fresh{{StepKind::kNewPlace, departure_, {}}};
-    fresh.log_likelihood = options_.log_prior_new_place;
-    if (options_.max_places && map_.place_count() >= *options_.max_places) {
-      fresh.refuted_by = Refutation::kTooManyPlaces;
-    }
-    return fresh;
-  }
-
-  const TopologicalMap& map_;
-  const GatewayRef departure_;
-  const Arrival& arrival_;
-  const TopologyOptions& options_;
-  const Evidence& evidence_;
-  std::vector<PlaceId> own_path_;
-  std::vector<GatewayRef> own_face_;
-};
-
-}  // namespace
-
-std::vector<Alternative> alternatives(const TopologicalMap& map,
-                                      Action action,
-                                      const Arrival& arrival,
-                                      const TopologyOptions& options,
-                                      const Evidence& evidence) {
-  const GatewayRef departure = map.departure(action);
-  Judge judge(map, departure, arrival, options, evidence);
-  const std::optional<GatewayRef> target = map.leads_to(departure);
-  return target ? judge.at_known_link(*target) : judge.at_pending_gateway();
+  return 0.0;
 }
 
-void apply(const Step& step, const Arrival& arrival, TopologicalMap& map) {
-  switch (step.kind) {
-    case StepKind::kStart:
-      break;
-    case StepKind::kKnownLink:
-      return map.follow(step.departure, arrival);
-    case StepKind::kClosure:
-      return map.close(step.departure, step.target, arrival);
-    case StepKind::kMisread:
-      return map.is_pending(step.departure) ? map.close(step.departure, step.target, arrival)
-                                            : map.follow(step.departure, arrival);
-    case StepKind::kNewPlace:
-      return map.add_place(step.departure, arrival);
-    case StepKind::kRejoin:
-      return map.rejoin(step.departure, step.target, arrival);
-    case StepKind::kContradiction:
-      return map.add_contradicting_place(step.departure, arrival);
+/// The gateway's number in the first reading of the visit that made its place known; -1: missed.
+int Successors::seen_number(GatewayIndex at) const {
+  const PlaceId place = map_.place_of(at);
+  const int seen_as = map_.seen_as(at);
+  const ReadingMatcher& first = experience_->matcher(map_.first_visit(place));
+  const View& view = first.view();
+  if (seen_as < 0 || view.others.empty()) {
+    return seen_as;
   }
-  CAIRN_CHECK(!"a start is not a step from a map");
+  for (int reading = 1; reading < reading_count(view); ++reading) {
+    if (first.star_id(reading) == map_.first_star(place)) {
+      return view.others[static_cast<std::size_t>(reading - 1)]
+          .gateways[static_cast<std::size_t>(seen_as)];
+    }
+  }
+  return seen_as;
 }
 
-std::string_view name_of(StepKind kind) {
-  switch (kind) {
-    case StepKind::kStart:
-      return "start";
-    case StepKind::kKnownLink:
-      return "known link";
-    case StepKind::kClosure:
-      return "closure";
-    case StepKind::kNewPlace:
-      return "new place";
-    case StepKind::kMisread:
-      return "misread star";
-    case StepKind::kRejoin:
-      return "rejoining";
-    case StepKind::kContradiction:
-      return "break";
+void Successors::add(Alternative alternative, const Arrival& arrival) {
+  const bool is_known = !adds_place(alternative.change);
+  if (is_known && !alternative.target.place.is_valid()) {
+    alternative.target = map_.ref(alternative.position);
   }
-  return "";
+  const auto place = is_known ? std::optional(alternative.target.place) : std::nullopt;
+  if (!arrival.order->is_empty() && !arrival.order->allows(place)) {
+    refute(Refutation::kOperator, alternative, arrival);
+    return;
+  }
+  alternative.log_likelihood += arrival.log_before;
+  if (alternative.log_likelihood == -std::numeric_limits<double>::infinity()) {
+    refute(Refutation::kEvidence, alternative, arrival);
+    return;
+  }
+  if (arrival.on_the_way != StepKind::kStart) {
+    alternative.kind = arrival.on_the_way;
+  }
+  if (arrival.amendment.kind != MapChange::Kind::kNothing) {
+    alternative.amendment = arrival.amendment;
+  }
+  found_->push_back(alternative);
 }
 
-std::string_view reason_of(Refutation refutation) {
-  switch (refutation) {
-    case Refutation::kNone:
-      return "nothing";
-    case Refutation::kOtherView:
-      return "the star looks different from there";
-    case Refutation::kOtherFace:
-      return "the link would cross a path segment (another face)";
-    case Refutation::kPlaceTwiceOnPath:
-      return "a place would be twice on a path (axiom)";
-    case Refutation::kRegions:
-      return "a place would be on both sides of a path, or on it and beside it";
-    case Refutation::kEvidence:
-      return "evidence excludes it";
-    case Refutation::kTooManyPlaces:
-      return "the map would have more than max_places places";
+void Successors::refute(Refutation reason, Alternative alternative, const Arrival& arrival) {
+  ++refuted_[static_cast<std::size_t>(reason)];
+  if (arrival.detail == Detail::kPossible) {
+    return;
   }
-  return "";
+  alternative.refuted_by = reason;
+  if (!adds_place(alternative.change) && !alternative.target.place.is_valid()) {
+    alternative.target = map_.ref(alternative.position);
+  }
+  found_->push_back(alternative);
 }
 
 }  // namespace cairn

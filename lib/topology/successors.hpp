@@ -1,68 +1,166 @@
 #pragma once
 
-#include <string_view>
+#include <array>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "topology/evidence.hpp"
-#include "topology/topological_map.hpp"
+#include "topology/experience_log.hpp"
+#include "topology/link_regions.hpp"
+#include "topology/path_marks.hpp"
+#include "topology/step.hpp"
 #include "topology/topology_options.hpp"
 
 namespace cairn {
 
-/// What an arrival means to a map.
-enum class StepKind {
-  kStart,      ///< The first place.
-  kKnownLink,  ///< The place to which the departing gateway is known to lead.
-  kClosure,    ///< A known place, through a pending gateway: a loop closes.
-  kNewPlace,   ///< A place never seen before.
-  kMisread,    ///< The known link's place, although the star differs: evidence overrules it.
-  /// A known place through a gateway that leads elsewhere: evidence overrules the link, or the
-  /// gateway was left unexplained by a travel the other way.
-  kRejoin,
-  kContradiction,  ///< A place that the departing gateway should not lead to: a break.
-};
-
-/// Why a step is not possible.
-enum class Refutation {
-  kNone,              ///< It is possible.
-  kOtherView,         ///< The star, seen from the gateway, differs.
-  kOtherFace,         ///< The link would cross a path segment.
-  kPlaceTwiceOnPath,  ///< Axiom: no place twice on a path.
-  kRegions,           ///< A place would lie on both sides of a path, or on a path and beside it.
-  kEvidence,          ///< Evidence says minus infinity.
-  kTooManyPlaces,     ///< TopologyOptions::max_places.
-};
-
-/// One step of a hypothesis.
-struct Step {
-  StepKind kind = StepKind::kStart;
-  GatewayRef departure;
-  GatewayRef target;  ///< Gateway of arrival at a known place; no place for a new one.
-};
-
-/// A step that was considered.
+/// A step that was considered, possible or not.
 struct Alternative {
-  Step step;
+  StepKind kind = StepKind::kStart;
   Refutation refuted_by = Refutation::kNone;
+  Misreading misreading = Misreading::kNone;
   double log_likelihood = 0.0;  ///< Prior, evidence and penalties of this step; not the layout.
+  MapChange amendment;          ///< Carried out first; kNothing for most steps.
+  MapChange change;
+  GatewayIndex departure = kNoGateway;
+  GatewayIndex position = kNoGateway;  ///< The gateway by which the robot came in, after the step.
+  /// The same for people; no place for a new one.
+  GatewayRef target;
 };
 
-/// Everything a travel may have led to according to one map, possible or not: Fig. 4, steps 1 to 3
-/// of Kuipers et al., ICRA 2004, with (2c) of Savelli and Kuipers when planar. From a known link:
-/// that place, if the view agrees. From a pending gateway: every pending gateway, by place, then
-/// the new place. Breaks are not among them.
-[[nodiscard]] std::vector<Alternative> alternatives(const TopologicalMap& map,
-                                                    Action action,
-                                                    const Arrival& arrival,
-                                                    const TopologyOptions& options,
-                                                    const Evidence& evidence);
+/// What an operator says about the place of a visit.
+struct PlaceOrder {
+  std::optional<PlaceId> must_be;
+  std::vector<PlaceId> must_not_be;
 
-/// Carries out a step.
-void apply(const Step& step, const Arrival& arrival, TopologicalMap& map);
+  [[nodiscard]] bool is_empty() const { return !must_be && must_not_be.empty(); }
+  /// @param place none: a new one
+  [[nodiscard]] bool allows(std::optional<PlaceId> place) const;
+};
 
-/// "known link", "closure", ...
-[[nodiscard]] std::string_view name_of(StepKind kind);
-/// "the view differs", ...: completes "refuted: ".
-[[nodiscard]] std::string_view reason_of(Refutation refutation);
+/// One hypothesis at the moment of an arrival.
+struct Situation {
+  GatewayIndex position = kNoGateway;  ///< Where the robot was before.
+  VisitId visit;                       ///< The new one.
+  PlaceOrder order;
+};
+
+/// Lists everything that an arrival may mean to a map, possible or not: Fig. 4, steps 1 to 3 of
+/// Kuipers et al., ICRA 2004, with (2c) of Savelli and Kuipers (IROS 2004) when planar. From a
+/// known link: that place, if the view agrees. From a pending gateway: every pending gateway,
+/// clockwise, then the new place. Where stars may be misread, also the steps that blame an
+/// observation.
+class Successors {
+ public:
+  enum class Detail {
+    kPossible,  ///< Refuted alternatives are counted only.
+    kAll,       ///< They are listed too, those behind other faces as well.
+  };
+
+  /// @param map at the hypothesis whose successors are asked for; all of them outlive it
+  Successors(const TopologyOptions& options,
+             const Evidence& evidence,
+             const ExperienceLog& experience,
+             StarCatalogue& stars,
+             WorkingMap& map)
+      : options_(&options),
+        evidence_(&evidence),
+        experience_(&experience),
+        stars_(&stars),
+        map_(map),
+        is_noisy_(options.noisy_stars),
+        departing_path_(map),
+        regions_(map) {}
+
+  /// Replaces what `found` held. Leaves the map as it was.
+  void list(const Situation& situation, Detail detail, std::vector<Alternative>& found);
+  /// The robot goes on although nothing explains it: at a new place by an unexplained gateway, or,
+  /// where an operator says so, at the place that he names.
+  [[nodiscard]] Alternative unexplained(const Situation& situation);
+
+  /// By Refutation; of all that was considered so far.
+  [[nodiscard]] const std::array<std::int64_t, kRefutations>& refuted() const { return refuted_; }
+  /// Of these, known links whose view differs.
+  [[nodiscard]] std::int64_t links_contradicted() const { return links_contradicted_; }
+  /// How many visits saw the star of a place as it is now; asked before a star is corrected.
+  void set_support(std::function<int(PlaceId)> support) { support_ = std::move(support); }
+  /// While a repair search goes on, stars may be misread in any case.
+  void set_noisy(bool is_noisy) { is_noisy_ = is_noisy; }
+
+ private:
+  struct Arrival {
+    VisitId visit;
+    ReadingMatcher* view = nullptr;
+    const PlaceOrder* order = nullptr;
+    Detail detail = Detail::kPossible;
+    double log_before = 0.0;  ///< Of what happened on the way.
+    StepKind on_the_way = StepKind::kStart;
+    MapChange amendment = {};  ///< Which the map has taken for the time being.
+  };
+
+  struct Amendment {
+    MapChange change;
+    int arrival_number = 0;       ///< Of the gateway of arrival in the corrected star.
+    double log_likelihood = 0.0;  ///< Of all visits to the place, compared with the star as it was.
+  };
+
+  void at_known_link(GatewayIndex departure, const Arrival& arrival);
+  void at_pending_gateway(GatewayIndex departure, const Arrival& arrival);
+  void woken_up(const Arrival& arrival);
+  void consider_closing(GatewayIndex departure,
+                        GatewayIndex target,
+                        double penalty,
+                        const Arrival& arrival);
+  void list_other_faces(GatewayIndex departure, const Arrival& arrival);
+  void consider_new_places(GatewayIndex departure, const Arrival& arrival);
+  [[nodiscard]] Refutation refutation_of_link(GatewayIndex departure, GatewayIndex target);
+
+  // Steps that blame an observation: noisy_successors.cpp.
+  void consider_misreading(GatewayIndex departure,
+                           GatewayIndex target,
+                           const ReadingMatch& match,
+                           const Arrival& arrival);
+  [[nodiscard]] bool is_worth_blaming(double log_likelihood, const ReadingMatch& match) const;
+  void consider_amending(GatewayIndex departure,
+                         GatewayIndex target,
+                         const ReadingMatch& match,
+                         const Arrival& arrival);
+  [[nodiscard]] std::optional<Amendment> amendment_of(PlaceId place,
+                                                      GatewayIndex target,
+                                                      const ReadingMatch& match,
+                                                      const Arrival& arrival);
+  void consider_unnoticed(GatewayIndex departure, const Arrival& arrival);
+  void consider_inserting(GatewayIndex departure, const Arrival& arrival);
+  void consider_unexplained(GatewayIndex departure, const Arrival& arrival);
+  void consider_rejoining(GatewayIndex departure, const Arrival& arrival);
+  void consider_unseen_gateways(GatewayIndex departure, const Arrival& arrival);
+  void consider_unseen_gateway(GatewayIndex departure,
+                               GatewayIndex known,
+                               int beside,
+                               const Arrival& arrival);
+  [[nodiscard]] bool can_link(GatewayIndex departure, GatewayIndex target);
+  void from_unseen_gateway(GatewayIndex position, const Arrival& arrival);
+
+  [[nodiscard]] double recognition(GatewayIndex target,
+                                   const ReadingMatch& match,
+                                   VisitId visit) const;
+  [[nodiscard]] int seen_number(GatewayIndex at) const;
+  void add(Alternative alternative, const Arrival& arrival);
+  void refute(Refutation reason, Alternative alternative, const Arrival& arrival);
+
+  const TopologyOptions* options_;
+  const Evidence* evidence_;
+  const ExperienceLog* experience_;
+  StarCatalogue* stars_;
+  WorkingMap& map_;
+  std::function<int(PlaceId)> support_;
+  bool is_noisy_;
+  std::vector<Alternative>* found_ = nullptr;
+  Action action_;
+  PathMarks departing_path_;
+  LinkRegions regions_;
+  std::array<std::int64_t, kRefutations> refuted_{};
+  std::int64_t links_contradicted_ = 0;
+};
 
 }  // namespace cairn

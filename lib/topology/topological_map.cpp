@@ -11,6 +11,49 @@ TopologicalMap::TopologicalMap(std::shared_ptr<const StarCatalogue> stars, const
   move_to(append_place(arrival, 0), arrival);
 }
 
+TopologicalMap::TopologicalMap(std::shared_ptr<const StarCatalogue> stars,
+                               const WorkingMap& map,
+                               const std::vector<PlacedVisit>& visits)
+    : stars_(std::move(stars)),
+      path_count_(map.path_count()),
+      pending_count_(map.pending_count()),
+      component_count_(map.component_count()),
+      unexplained_count_(map.one_way_count()) {
+  int linked_ends = 0;
+  for (PlaceId place{0}; place.value < map.place_count(); ++place.value) {
+    places_.push_back(
+        {map.star(place), exits_.size(), map.component(place), map.first_visit(place)});
+    const GatewayIndex first = map.first_gateway(place);
+    for (GatewayIndex at = first; at < first + map.gateway_count(place); ++at) {
+      exits_.push_back(map.is_pending(at) ? GatewayRef{} : map.ref(map.leads_to(at)));
+      linked_ends += map.is_linked(at) ? 1 : 0;
+    }
+  }
+  closure_count_ = linked_ends / 2 - map.place_count() + map.parts_begun();
+  for (const PlacedVisit& visit : visits) {
+    const VisitId id{visit_count()};
+    const int gateways = gateway_count(visit.arrival.place);
+    const int shift = visit.arrival.gateway - visit.arrival_of_view % gateways + gateways;
+    visits_.push_back({visit.arrival.place, shift % gateways});
+    if (!visit.gateways.empty()) {
+      misread_[id] = visit.gateways;
+    }
+    if (visit.is_carried) {
+      carried_.insert(id);
+    }
+  }
+  position_ = visits.back().arrival;
+}
+
+int TopologicalMap::gateway_at(VisitId visit, int gateway) const {
+  const auto misread = misread_.find(visit);
+  if (misread != misread_.end()) {
+    return misread->second[static_cast<std::size_t>(gateway)];
+  }
+  const VisitedPlace at = at_visit(visit);
+  return (gateway + at.shift) % gateway_count(at.place);
+}
+
 std::optional<GatewayRef> TopologicalMap::through(GatewayRef at) const {
   const int gateway = stars_->through(star_of(at.place), at.gateway);
   return gateway < 0 ? std::nullopt : std::optional(GatewayRef{at.place, gateway});

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "topology/experience.hpp"
 #include "topology/star_catalogue.hpp"
+#include "topology/working_map.hpp"
 
 namespace cairn {
 
@@ -19,7 +22,8 @@ struct Arrival {
 /// Which place a visit was at, according to one map.
 struct VisitedPlace {
   PlaceId place;
-  /// Gateway j of the visit's star is gateway (j + shift) mod n of the place's star.
+  /// The gateway of arrival is gateway (arrival + shift) mod n of the place's star; unless the
+  /// visit misread the star, so is every gateway.
   int shift = 0;
   friend bool operator==(const VisitedPlace&, const VisitedPlace&) = default;
 };
@@ -33,11 +37,27 @@ struct VisitedPlace {
 /// one way, to a gateway that is linked elsewhere: such a gateway is unexplained. It belongs to no
 /// path and to no face, but the robot may travel through it.
 ///
+/// Where a visit misread the star, or carried several readings, the map knows which of its gateways
+/// is which of the place's.
+///
 /// A value: copies are independent (the stars are shared, and never change).
 class TopologicalMap {
  public:
   /// One place, all gateways pending, the robot in it.
   TopologicalMap(std::shared_ptr<const StarCatalogue> stars, const Arrival& arrival);
+
+  /// A visit as another representation of the map knows it.
+  struct PlacedVisit {
+    GatewayRef arrival;
+    int arrival_of_view = 0;  ///< The gateway of arrival in the numbers of the view.
+    /// For each gateway of the view that of the place, -1: none; empty: all follow clockwise.
+    std::vector<int> gateways;
+    bool is_carried = false;  ///< Not by a travel from the visit before.
+  };
+  /// The map as a search holds it. @pre the visits are all, in order, at places of the map
+  TopologicalMap(std::shared_ptr<const StarCatalogue> stars,
+                 const WorkingMap& map,
+                 const std::vector<PlacedVisit>& visits);
 
   [[nodiscard]] int place_count() const { return static_cast<int>(places_.size()); }
   /// Chains of fragments, each joined to the next by a link.
@@ -88,6 +108,10 @@ class TopologicalMap {
   [[nodiscard]] GatewayRef departure(Action action) const;
   /// @pre visit.index() < visit_count()
   [[nodiscard]] VisitedPlace at_visit(VisitId visit) const { return visits_[visit.index()]; }
+  /// The gateway of the visit's place that the view calls `gateway`; -1 where the place has none.
+  [[nodiscard]] int gateway_at(VisitId visit, int gateway) const;
+  /// Whether the robot did not travel here from the visit before.
+  [[nodiscard]] bool is_carried(VisitId visit) const { return carried_.count(visit) > 0; }
   /// The visit that made the place known.
   [[nodiscard]] VisitId first_visit(PlaceId place) const {
     return places_[place.index()].first_visit;
@@ -139,6 +163,8 @@ class TopologicalMap {
   std::vector<Place> places_;
   std::vector<GatewayRef> exits_;  // Where each gateway leads; an invalid place: pending.
   std::vector<VisitedPlace> visits_;
+  std::map<VisitId, std::vector<int>> misread_;  // Gateways by gateway of the view.
+  std::set<VisitId> carried_;
   GatewayRef position_;
   int path_count_ = 0;
   int pending_count_ = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "base/result.hpp"
@@ -18,23 +19,38 @@ enum class Preference {
 /// What the search for topological maps assumes and how much it may keep. In the configuration
 /// file: the object "topology". Probabilities are natural logarithms (nats).
 struct TopologyOptions {
-  bool planar = true;              ///< No path segment crosses another: corridors of one storey.
+  bool planar = true;  ///< No path segment crosses another: corridors of one storey.
+  /// Without planarity, of each link between two faces: each raises the genus by one. [0, 10000]
+  double log_penalty_handle = 0.0;
   bool region_consistent = false;  ///< Every path must separate a left from a right.
   std::optional<int> max_places;   ///< Maps do not grow beyond; without a value, unbounded. >= 1
-  /// Live hypotheses kept: the best ones, judged before the new layouts are known. [1, 10000000]
-  int max_hypotheses = 2000;
-  int max_broken_hypotheses = 32;  ///< Of these, how many survive a contradiction. [1, 10000000]
-  /// With evidence of same places, every hypothesis that a visit contradicts lives on with an
-  /// unexplained gateway, at log_penalty_break: stars are misread now and then, and what follows
-  /// may prove the hypothesis right. If not, or without such evidence, a contradicted hypothesis
-  /// dies, except that the best live on when all are contradicted.
-  bool keep_contradicted = true;
-  Preference preference = Preference::kPosterior;
-  double log_prior_new_place = -1.0;   ///< Of each place beyond the first. [-1000, 0]
-  double log_penalty_break = 10.0;     ///< Of each observation left unexplained. [0, 10000]
-  double log_penalty_misread = 10.0;   ///< Of each star taken to be misread. [0, 10000]
+
+  /// Stars may be misread, gateways missed or imagined, places passed without notice, each at the
+  /// penalties below. If not, as in the papers, a hypothesis that a view contradicts dies, and a
+  /// repair search is made when all are dead.
+  bool noisy_stars = false;
+  double log_prior_new_place = -1.0;  ///< Of each place beyond the first. [-1000, 0]
+  double log_penalty_misread = 10.0;  ///< Of each star whose fragments were misread. [0, 10000]
+  double log_penalty_missed_gateway = 8.0;  ///< Of each gateway overlooked. [0, 10000]
+  double log_penalty_false_gateway = 8.0;   ///< Of each gateway seen that is not there. [0, 10000]
+  double log_penalty_unnoticed = 10.0;      ///< Of each place passed without notice. [0, 10000]
+  double log_penalty_break = 16.0;          ///< Of each observation left unexplained. [0, 10000]
   double recognition_threshold = 2.0;  ///< Evidence above it may overrule star or link. [0, 10000]
-  double layout_margin = 50.0;  ///< Hypotheses further below the best are not laid out. [0, 1e6]
+  double max_log_evidence = 20.0;      ///< Evidence of same places is cut to it. [0, 1000]
+
+  Preference preference = Preference::kPosterior;
+  /// Live hypotheses: the best ones, judged before the new layouts are known. The others wait and
+  /// are taken up again when they come to be among the best. [1, 10000000]
+  int max_hypotheses = 2000;
+  /// Memory of the tree: when it is full, those that wait and are the least probable are given up,
+  /// and with them the guarantee. [65536, 1e12]
+  std::int64_t max_bytes = 64 << 20;
+  int max_revivals = 200;          ///< Steps of waiting hypotheses per arrival. [0, 10000000]
+  int max_repair_steps = 20000;    ///< Steps of one repair search. [0, 10000000]
+  int max_broken_hypotheses = 32;  ///< How many survive an arrival nothing explains. [1, 10000000]
+  double layout_margin = 50.0;     ///< Hypotheses further below the best are not laid out. [0, 1e6]
+  /// A place is claimed after waking up once its odds against all others reach this. [1, 1e12]
+  double claim_odds = 100.0;
 };
 
 /// Names every field that is out of range, with its value.

@@ -62,11 +62,12 @@ GatewayIndex WorkingMap::append_place(StarId star, VisitId visit, std::int32_t c
   const auto first = static_cast<GatewayIndex>(gateways_.size());
   const auto place = static_cast<std::int32_t>(places_.size());
   const int count = stars_->gateway_count(star);
-  places_.push_back({star, first, component, visit, visit});
+  places_.push_back({star, first, component, visit, star, visit});
   gateways_.resize(gateways_.size() + static_cast<std::size_t>(count));
   for (int number = 0; number < count; ++number) {
     Gateway& gateway = of(first + number);
     gateway.place = place;
+    gateway.seen_as = number;
     gateway.next = first + (number + 1 == count ? 0 : number + 1);
     gateway.previous = first + (number == 0 ? count - 1 : number - 1);
   }

@@ -34,6 +34,11 @@ struct MapChange {
   GatewayIndex target = kNoGateway;
 };
 
+[[nodiscard]] constexpr bool adds_place(const MapChange& change) {
+  return change.kind == MapChange::Kind::kPlace || change.kind == MapChange::Kind::kStrayPlace ||
+         change.kind == MapChange::Kind::kInsertPlace;
+}
+
 /// One topological map as a search changes it, step by step forward and back: places, links, and
 /// the pending gateways of each face as a ring. Every step and its undo take constant time (plus
 /// the gateways of the place added). Symbols only. The robot's position is not part of it.
@@ -58,7 +63,10 @@ class WorkingMap {
   void undo(const MapChange& change);
 
   [[nodiscard]] int place_count() const { return static_cast<int>(places_.size()); }
-  [[nodiscard]] int gateway_count() const { return static_cast<int>(gateways_.size()); }
+  /// The index that the first gateway of the next place will have.
+  [[nodiscard]] GatewayIndex end_gateway() const {
+    return static_cast<GatewayIndex>(gateways_.size());
+  }
   /// Chains of fragments, each joined to the next by a link.
   [[nodiscard]] int path_count() const { return path_count_; }
   [[nodiscard]] int pending_count() const { return pending_count_; }
@@ -67,12 +75,17 @@ class WorkingMap {
   /// Parts without a link between them.
   [[nodiscard]] int component_count() const { return component_count_; }
 
+  /// Parts that were ever begun: places added without a link, and the first one.
+  [[nodiscard]] int parts_begun() const { return next_component_; }
+
   [[nodiscard]] StarId star(PlaceId place) const { return places_[place.index()].star; }
   /// The visit that showed the place's star.
   [[nodiscard]] VisitId seen_at(PlaceId place) const { return places_[place.index()].seen_at; }
   [[nodiscard]] VisitId first_visit(PlaceId place) const {
     return places_[place.index()].first_visit;
   }
+  /// The star that the first visit showed.
+  [[nodiscard]] StarId first_star(PlaceId place) const { return places_[place.index()].first_star; }
   [[nodiscard]] int component(PlaceId place) const { return places_[place.index()].component; }
   [[nodiscard]] int gateway_count(PlaceId place) const {
     return stars_->gateway_count(places_[place.index()].star);
@@ -97,6 +110,8 @@ class WorkingMap {
   /// The gateway straight on across the place; kNoGateway: the fragment terminates.
   [[nodiscard]] GatewayIndex through(GatewayIndex at) const { return of(at).through; }
   [[nodiscard]] ViewClassId view_class(GatewayIndex at) const { return {of(at).view_class}; }
+  /// Its number in the star that the place had when it was added; -1: a later star added it.
+  [[nodiscard]] int seen_as(GatewayIndex at) const { return of(at).seen_as; }
   /// The pending gateway that follows clockwise in the ring. @pre at is pending
   [[nodiscard]] GatewayIndex next_in_ring(GatewayIndex at) const { return of(at).next; }
   [[nodiscard]] GatewayIndex previous_in_ring(GatewayIndex at) const { return of(at).previous; }
@@ -114,12 +129,14 @@ class WorkingMap {
     GatewayIndex next = kNoGateway;  ///< In the ring; kept while the gateway is out of it.
     GatewayIndex previous = kNoGateway;
     std::int32_t view_class = -1;
+    std::int32_t seen_as = -1;
   };
   struct Place {
     StarId star;
     GatewayIndex first_gateway = 0;
     std::int32_t component = 0;
     VisitId first_visit;
+    StarId first_star;
     VisitId seen_at;
   };
   /// What a rare change overwrote.

@@ -20,7 +20,7 @@ bool WorkingMap::is_in_ring(GatewayIndex at) const {
 void WorkingMap::enter_ring(GatewayIndex at) {
   GatewayIndex successor = kNoGateway;
   if (rings_ == Rings::kOne) {
-    for (GatewayIndex other = 0; other < gateway_count() && successor == kNoGateway; ++other) {
+    for (GatewayIndex other = 0; other < end_gateway() && successor == kNoGateway; ++other) {
       // Gateways that a changed star left behind belong to no place any more.
       const bool is_of_its_place = other >= first_gateway(place_of(other)) &&
                                    number_of(other) < gateway_count(place_of(other));
@@ -95,7 +95,7 @@ void WorkingMap::add_stray_place(const MapChange& change) {
 void WorkingMap::remove_stray_place(const MapChange& change) {
   const GatewayIndex first = places_.back().first_gateway;
   if (rings_ == Rings::kOne) {
-    for (GatewayIndex at = gateway_count() - 1; at >= first; --at) {
+    for (GatewayIndex at = end_gateway() - 1; at >= first; --at) {
       if (is_pending(at)) {
         leave_ring(at);
       }
@@ -115,6 +115,7 @@ void WorkingMap::move_gateway(GatewayIndex from, GatewayIndex to) {
   const GatewayIndex end = of(from).leads_to;
   const bool was_linked = is_linked(from);
   of(to).leads_to = end;
+  of(to).seen_as = of(from).seen_as;
   if (was_linked) {
     of(end).leads_to = to;
   }
@@ -219,7 +220,7 @@ void WorkingMap::insert_place(const MapChange& change) {
   const GatewayIndex arrival = first + change.target;
   const GatewayIndex onward = of(arrival).through;
   CAIRN_CHECK(onward != kNoGateway);
-  for (GatewayIndex at = first; at < gateway_count(); ++at) {
+  for (GatewayIndex at = first; at < end_gateway(); ++at) {
     of(at).next = of(at).previous = kNoGateway;
   }
   of(here).leads_to = arrival;
@@ -228,7 +229,7 @@ void WorkingMap::insert_place(const MapChange& change) {
   of(onward).leads_to = there;
   path_count_ -= 1;
   pending_count_ -= 2;
-  for (GatewayIndex at = first; at < gateway_count(); ++at) {
+  for (GatewayIndex at = first; at < end_gateway(); ++at) {
     if (is_pending(at)) {
       enter_ring(at);
     }
@@ -239,7 +240,7 @@ void WorkingMap::take_out_place(const MapChange& change) {
   const GatewayIndex here = change.departure;
   const GatewayIndex first = places_.back().first_gateway;
   const GatewayIndex there = of(of(of(here).leads_to).through).leads_to;
-  for (GatewayIndex at = gateway_count() - 1; at >= first; --at) {
+  for (GatewayIndex at = end_gateway() - 1; at >= first; --at) {
     if (is_pending(at)) {
       leave_ring(at);
     }

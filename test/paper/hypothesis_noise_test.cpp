@@ -4,7 +4,7 @@
 #include <map>
 #include <random>
 #include <set>
-#include <tuple>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -36,17 +36,19 @@ class NoisyMatcher {
  public:
   NoisyMatcher(const Walk& walk, unsigned seed) : walk_(walk), seed_(seed) {}
 
-  double operator()(const TopologicalMap& before, VisitId visit, PlaceId place, int shift) {
-    const VisitId first = before.first_visit(place);
-    const auto question = std::tuple(visit.value, first.value, shift);
-    const auto known = answers_.find(question);
-    if (known != answers_.end()) {
-      return known->second;
+  double operator()(SeenGateway known, SeenGateway now) {
+    const auto question = std::pair(known, now);
+    const auto answered = answers_.find(question);
+    if (answered != answers_.end()) {
+      return answered->second;
     }
+    // Misread stars keep their gateways, so those of one place have the same numbers.
     const bool is_same =
-        walk_.truth[visit.index()].first == walk_.truth[first.index()].first && shift == 0;
-    std::seed_seq seed{seed_, static_cast<unsigned>(visit.value),
-                       static_cast<unsigned>(first.value), static_cast<unsigned>(shift)};
+        walk_.truth[known.visit.index()].first == walk_.truth[now.visit.index()].first &&
+        known.gateway == now.gateway;
+    std::seed_seq seed{seed_, static_cast<unsigned>(known.visit.value),
+                       static_cast<unsigned>(now.visit.value), static_cast<unsigned>(known.gateway),
+                       static_cast<unsigned>(now.gateway)};
     std::mt19937 random(seed);
     return answers_[question] = (is_same ? 8.0 : -8.0) + uniform(-6.0, 6.0, random);
   }
@@ -54,7 +56,7 @@ class NoisyMatcher {
  private:
   const Walk& walk_;
   unsigned seed_;
-  std::map<std::tuple<int, int, int>, double> answers_;
+  std::map<std::pair<SeenGateway, SeenGateway>, double> answers_;
 };
 
 int wrong_visits(const TopologicalMap& map, const Walk& walk) {
@@ -77,12 +79,12 @@ TEST(HypothesisNoise, MisreadStarsCostFewPlacesAndNoFalseClosures) {
     const Walk walk = streets.walk(0, streets.random_moves(0, 150, random));
     NoisyMatcher matcher(walk, seed);
     Evidence evidence;
-    evidence.same_place = [&](const TopologicalMap& before, VisitId visit, PlaceId place,
-                              int shift) { return matcher(before, visit, place, shift); };
+    evidence.same_place = [&](SeenGateway known, SeenGateway now) { return matcher(known, now); };
     TopologyOptions options;
+    options.noisy_stars = true;
     options.max_hypotheses = 200;
     HypothesisTree tree(options, evidence);
-    tree.start(walk.start);
+    ASSERT_TRUE(tree.start(walk.start).ok());
     std::set<int> true_places = {walk.truth.front().first};
     int misreadings = 0;
     for (const Experienced& step : walk.steps) {
@@ -91,10 +93,10 @@ TEST(HypothesisNoise, MisreadStarsCostFewPlacesAndNoFalseClosures) {
         view.star = misread(view.star);
         ++misreadings;
       }
-      tree.extend(step.action, view);
+      ASSERT_TRUE(tree.extend(step.action, view).ok());
       true_places.insert(walk.truth[view.visit.index()].first);
     }
-    const TopologicalMap& best = tree.fringe().front().map;
+    const TopologicalMap best = tree.map(tree.best().id);
     EXPECT_EQ(wrong_visits(best, walk), 0);
     EXPECT_GE(best.place_count(), static_cast<int>(true_places.size()));
     EXPECT_LE(best.place_count(), static_cast<int>(true_places.size()) + misreadings);

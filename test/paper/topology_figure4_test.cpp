@@ -34,18 +34,19 @@ Counts explore(const Lattice& streets, const std::string& moves, TopologyOptions
   options.max_hypotheses = 10'000'000;
   HypothesisTree tree(options);
   const Walk walk = streets.walk(0, moves);
-  tree.start(walk.start);
+  EXPECT_TRUE(tree.start(walk.start).ok());
   for (const Experienced& step : walk.steps) {
-    tree.extend(step.action, step.view);
+    EXPECT_TRUE(tree.extend(step.action, step.view).ok());
   }
   EXPECT_FALSE(tree.guarantee_given_up());
+  EXPECT_EQ(tree.waiting_count(), 0);
   Counts counts{tree.node_count(), tree.maps_built()};
-  for (const Hypothesis& leaf : tree.fringe()) {
-    const bool is_closed = leaf.map.has_no_lone_path();
+  tree.for_each_map([&](const Hypothesis&, const TopologicalMap& map) {
+    const bool is_closed = map.has_no_lone_path();
     ++counts.final_maps;
     counts.closed += is_closed ? 1 : 0;
-    counts.perpendicular += is_closed && is_perpendicular(leaf.map) ? 1 : 0;
-  }
+    counts.perpendicular += is_closed && is_perpendicular(map) ? 1 : 0;
+  });
   counts.optimal = static_cast<std::int64_t>(tree.simplest_closed().size());
   return counts;
 }

@@ -49,13 +49,16 @@ Explored explore(const Json& vector,
     options.max_places = vector["max_places"].get<int>();
   }
   Explored explored{HypothesisTree(options), {}, 0};
-  explored.tree.start({stars.at(vector["start"]["star"]), vector["start"]["gate"], VisitId{0}});
+  EXPECT_TRUE(
+      explored.tree.start({stars.at(vector["start"]["star"]), vector["start"]["gate"], VisitId{0}})
+          .ok());
   VisitId visit{0};
   for (const Json& step : vector["steps"]) {
     ++visit.value;
     const ExtendReport report =
-        explored.tree.extend({step[0]}, {stars.at(step[1]), step[2], visit});
+        *explored.tree.extend({step[0]}, {stars.at(step[1]), step[2], visit});
     EXPECT_FALSE(report.guarantee_given_up);
+    EXPECT_EQ(report.waiting, 0);
     explored.leaves_per_step.push_back(static_cast<int>(report.leaves));
     explored.links_contradicted += report.links_contradicted;
   }
@@ -64,8 +67,10 @@ Explored explore(const Json& vector,
 
 template <typename Predicate>
 int count(const HypothesisTree& tree, Predicate holds) {
-  return static_cast<int>(std::count_if(tree.fringe().begin(), tree.fringe().end(),
-                                        [&](const Hypothesis& leaf) { return holds(leaf.map); }));
+  int count = 0;
+  tree.for_each_map(
+      [&](const Hypothesis&, const TopologicalMap& map) { count += holds(map) ? 1 : 0; });
+  return count;
 }
 
 void expect_counts(const Explored& explored, const Json& expected) {
@@ -141,7 +146,7 @@ TEST(OfficeExperiment, RegionConsistencyAsAnAxiomGives83MapsAnd46InThePlane) {
       EXPECT_EQ(explored.tree.fringe().size(), planar ? 46U : 83U);
       EXPECT_EQ(explored.leaves_per_step,
                 expected["region_leaves_per_step"].get<std::vector<int>>());
-      const TopologicalMap& best = explored.tree.fringe().front().map;
+      const TopologicalMap best = explored.tree.map(explored.tree.best().id);
       EXPECT_EQ(best.path_count(), expected["minimal_region"]["paths"]);
       EXPECT_EQ(best.place_count(), expected["minimal_region"]["places"]);
       const auto is_minimal = [&](const TopologicalMap& map) {

@@ -1,21 +1,27 @@
 #include "topology/successors.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "map_builder.hpp"
+#include "arrivals.hpp"
 #include "support/stars.hpp"
 
 namespace cairn::test {
 namespace {
 
+using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr GatewayRef kNowhere{};
+
+/// The first alternative that leads there.
 const Alternative& to(const std::vector<Alternative>& all, GatewayRef target) {
   for (const Alternative& alternative : all) {
-    if (alternative.step.target == target) {
+    if (alternative.target == target) {
       return alternative;
     }
   }
@@ -23,179 +29,241 @@ const Alternative& to(const std::vector<Alternative>& all, GatewayRef target) {
   return all.front();
 }
 
-constexpr GatewayRef kNowhere{};
+std::vector<Alternative> of_kind(const std::vector<Alternative>& all, StepKind kind) {
+  std::vector<Alternative> found;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(found), [&](const Alternative& one) {
+    return one.kind == kind && one.refuted_by == Refutation::kNone;
+  });
+  return found;
+}
 
-TEST(Alternatives, OfAKnownLinkIsOnePlaceIfTheViewAgrees) {
-  MapBuilder walked = MapBuilder(corner(), 0).add_place(0, tee(), 2);
-  const Arrival same = walked.arrive(corner(), 0);
-  const auto agreed = alternatives(walked.map(), {0}, same, {}, {});
+TopologyOptions noisy() {
+  TopologyOptions options;
+  options.noisy_stars = true;
+  return options;
+}
+
+Evidence says(double log_ratio) {
+  Evidence evidence;
+  evidence.same_place = [=](SeenGateway, SeenGateway) { return log_ratio; };
+  return evidence;
+}
+
+TEST(Successors, OfAKnownLinkIsOnePlaceIfTheViewAgrees) {
+  Arrivals walked(corner(), 0);
+  walked.add_place(0, tee(), 2);
+  const auto agreed = walked.of(0, corner(), 0);
   ASSERT_THAT(agreed, SizeIs(1));
+  EXPECT_EQ(agreed[0].kind, StepKind::kKnownLink);
   EXPECT_EQ(agreed[0].refuted_by, Refutation::kNone);
-  EXPECT_EQ(agreed[0].step.target, (GatewayRef{PlaceId{0}, 0}));
+  EXPECT_EQ(agreed[0].target, (GatewayRef{PlaceId{0}, 0}));
 
-  const Arrival other_hand = walked.arrive(corner(), 1);
-  EXPECT_EQ(alternatives(walked.map(), {0}, other_hand, {}, {})[0].refuted_by,
-            Refutation::kOtherView);
+  Arrivals again(corner(), 0);
+  again.add_place(0, tee(), 2);
+  EXPECT_EQ(again.of(0, corner(), 1)[0].refuted_by, Refutation::kOtherView);
 }
 
-TEST(Alternatives, FromAPendingGatewayAreTheOthersThatLookAlikeAndANewPlace) {
-  MapBuilder walked = MapBuilder(corner(), 0).add_place(0, corner(), 1).add_place(1, corner(), 1);
-  const auto all = alternatives(walked.map(), {1}, walked.arrive(corner(), 1), {}, {});
+TEST(Successors, FromAPendingGatewayAreTheOthersThatLookAlikeAndANewPlace) {
+  Arrivals walked(corner(), 0);
+  walked.add_place(0, corner(), 1).add_place(1, corner(), 1);
+  const auto all = walked.of(1, corner(), 1);
   EXPECT_EQ(to(all, {PlaceId{0}, 1}).refuted_by, Refutation::kNone);
-  EXPECT_EQ(to(all, kNowhere).step.kind, StepKind::kNewPlace);
-  const auto other_hand = alternatives(walked.map(), {1}, walked.arrive(corner(), 0), {}, {});
-  EXPECT_EQ(to(other_hand, {PlaceId{0}, 1}).refuted_by, Refutation::kOtherView);
+  EXPECT_EQ(to(all, {PlaceId{0}, 1}).kind, StepKind::kClosure);
+  EXPECT_EQ(to(all, kNowhere).kind, StepKind::kNewPlace);
+
+  Arrivals other_hand(corner(), 0);
+  other_hand.add_place(0, corner(), 1).add_place(1, corner(), 1);
+  EXPECT_EQ(to(other_hand.of(1, corner(), 0), {PlaceId{0}, 1}).refuted_by, Refutation::kOtherView);
 }
 
-TEST(Alternatives, DoNotPutAPlaceTwiceOnAPath) {
-  MapBuilder at(crossing(), 0);
-  const auto all = alternatives(at.map(), {0}, at.arrive(crossing(), 0), {}, {});
+TEST(Successors, DoNotPutAPlaceTwiceOnAPath) {
+  Arrivals at(crossing(), 0);
+  const auto all = at.of(0, crossing(), 0);
   for (const int gateway : {1, 2, 3}) {
     EXPECT_EQ(to(all, {PlaceId{0}, gateway}).refuted_by, Refutation::kPlaceTwiceOnPath);
   }
 }
 
-TEST(Alternatives, StayWithinOneFaceInThePlane) {
-  // Around a roundabout: gateways 1 lie inside, 3 outside. The robot leaves inward.
-  MapBuilder map = MapBuilder(crossing(), 0)
-                       .add_place(2, crossing(), 0)
-                       .add_place(2, crossing(), 0)
-                       .close(2, {PlaceId{0}, 0});
-  const Arrival arrival = map.arrive(crossing(), 0);
+/// Around a roundabout: gateways 1 lie inside, 3 outside.
+void go_around(Arrivals& walk) {
+  walk.add_place(2, crossing(), 0).add_place(2, crossing(), 0).close(2, {PlaceId{0}, 0});
+}
+
+TEST(Successors, StayWithinOneFaceInThePlane) {
+  Arrivals planar(crossing(), 0);
+  go_around(planar);
+  const auto inward = planar.of(1, crossing(), 0);
+  EXPECT_EQ(to(inward, {PlaceId{1}, 1}).refuted_by, Refutation::kNone);
+  EXPECT_EQ(to(inward, {PlaceId{1}, 3}).refuted_by, Refutation::kOtherFace);
+
   TopologyOptions options;
-  const auto planar = alternatives(map.map(), {1}, arrival, options, {});
-  EXPECT_EQ(to(planar, {PlaceId{1}, 1}).refuted_by, Refutation::kNone);
-  EXPECT_EQ(to(planar, {PlaceId{1}, 3}).refuted_by, Refutation::kOtherFace);
   options.planar = false;
-  const auto bridged = alternatives(map.map(), {1}, arrival, options, {});
-  EXPECT_EQ(to(bridged, {PlaceId{1}, 3}).refuted_by, Refutation::kNone);
+  Arrivals spatial(crossing(), 0, options, {}, WorkingMap::Rings::kOne);
+  go_around(spatial);
+  EXPECT_EQ(to(spatial.of(1, crossing(), 0), {PlaceId{1}, 3}).refuted_by, Refutation::kNone);
 }
 
-TEST(Alternatives, JoinAPartLeftByAContradictionToAnyFace) {
-  MapBuilder map = MapBuilder(crossing(), 0)
-                       .add_place(2, crossing(), 0)
-                       .add_place(2, crossing(), 0)
-                       .close(2, {PlaceId{0}, 0});
-  map.contradict(0, crossing(), 0);
-  const auto all = alternatives(map.map(), {2}, map.arrive(crossing(), 0), {}, {});
-  EXPECT_EQ(to(all, {PlaceId{1}, 1}).refuted_by, Refutation::kNone);
-  EXPECT_EQ(to(all, {PlaceId{1}, 3}).refuted_by, Refutation::kNone);
-}
-
-TEST(Alternatives, KeepTheSidesOfPathsApartIfAsked) {
-  MapBuilder walked = MapBuilder(corner(), 0).add_place(0, corner(), 1);
-  const Arrival arrival = walked.arrive(corner(), 1);
+TEST(Successors, PayForEachHandleIfAsked) {
   TopologyOptions options;
-  EXPECT_EQ(to(alternatives(walked.map(), {1}, arrival, options, {}), {PlaceId{0}, 1}).refuted_by,
-            Refutation::kNone);
-  options.region_consistent = true;
-  EXPECT_EQ(to(alternatives(walked.map(), {1}, arrival, options, {}), {PlaceId{0}, 1}).refuted_by,
-            Refutation::kRegions);
+  options.planar = false;
+  options.log_penalty_handle = 2.5;
+  Arrivals walk(crossing(), 0, options);
+  go_around(walk);
+  const auto all = walk.of(1, crossing(), 0);
+  EXPECT_DOUBLE_EQ(to(all, {PlaceId{1}, 1}).log_likelihood, 0.0);
+  EXPECT_DOUBLE_EQ(to(all, {PlaceId{1}, 3}).log_likelihood, -2.5);
 }
 
-TEST(Alternatives, EndAtTheBoundOfPlaces) {
+TEST(Successors, JoinAPartLeftByAContradictionToAnyFace) {
+  for (const auto rings : {WorkingMap::Rings::kFaces, WorkingMap::Rings::kOne}) {
+    TopologyOptions options;
+    options.planar = rings == WorkingMap::Rings::kFaces;
+    Arrivals walk(crossing(), 0, options, {}, rings);
+    go_around(walk);
+    walk.contradict(0, crossing(), 0);
+    const auto all = walk.of(2, crossing(), 0);
+    EXPECT_EQ(to(all, {PlaceId{1}, 1}).refuted_by, Refutation::kNone);
+    EXPECT_EQ(to(all, {PlaceId{1}, 3}).refuted_by, Refutation::kNone);
+  }
+}
+
+TEST(Successors, KeepTheSidesOfPathsApartIfAsked) {
+  TopologyOptions options;
+  Arrivals any(corner(), 0, options);
+  any.add_place(0, corner(), 1);
+  EXPECT_EQ(to(any.of(1, corner(), 1), {PlaceId{0}, 1}).refuted_by, Refutation::kNone);
+  options.region_consistent = true;
+  Arrivals consistent(corner(), 0, options);
+  consistent.add_place(0, corner(), 1);
+  EXPECT_EQ(to(consistent.of(1, corner(), 1), {PlaceId{0}, 1}).refuted_by, Refutation::kRegions);
+}
+
+TEST(Successors, EndAtTheBoundOfPlaces) {
   TopologyOptions options;
   options.max_places = 1;
-  MapBuilder at(corner(), 0);
-  EXPECT_EQ(to(alternatives(at.map(), {0}, at.arrive(tee(), 0), options, {}), kNowhere).refuted_by,
-            Refutation::kTooManyPlaces);
+  Arrivals at(corner(), 0, options);
+  EXPECT_EQ(to(at.of(0, tee(), 0), kNowhere).refuted_by, Refutation::kTooManyPlaces);
 }
 
-TEST(Alternatives, EvidenceIsAskedForConsistentClosuresOnly) {
-  MapBuilder walked = MapBuilder(corner(), 0).add_place(0, corner(), 1).add_place(1, corner(), 1);
+TEST(Successors, EvidenceIsAskedForConsistentClosuresOnly) {
   int asked = 0;
   Evidence evidence;
-  evidence.same_place = [&](const TopologicalMap&, VisitId visit, PlaceId same_as, int shift) {
+  evidence.same_place = [&](SeenGateway known, SeenGateway now) {
     ++asked;
-    EXPECT_EQ(visit, VisitId{3});
-    EXPECT_EQ(same_as, PlaceId{0});
-    EXPECT_EQ(shift, 0);
+    EXPECT_EQ(known, (SeenGateway{VisitId{0}, 1}));
+    EXPECT_EQ(now, (SeenGateway{VisitId{3}, 1}));
     return 2.5;
   };
-  const auto all = alternatives(walked.map(), {1}, walked.arrive(corner(), 1), {}, evidence);
+  Arrivals walked(corner(), 0, {}, evidence);
+  walked.add_place(0, corner(), 1).add_place(1, corner(), 1);
+  const auto all = walked.of(1, corner(), 1);
   EXPECT_EQ(asked, 1);
   EXPECT_DOUBLE_EQ(to(all, {PlaceId{0}, 1}).log_likelihood, 2.5);
 }
 
-TEST(Alternatives, MinusInfinityRefutes) {
-  MapBuilder walked = MapBuilder(corner(), 0).add_place(0, corner(), 1).add_place(1, corner(), 1);
-  Evidence evidence;
-  evidence.same_place = [](const TopologicalMap&, VisitId, PlaceId, int) {
-    return -std::numeric_limits<double>::infinity();
-  };
-  const auto all = alternatives(walked.map(), {1}, walked.arrive(corner(), 1), {}, evidence);
-  EXPECT_EQ(to(all, {PlaceId{0}, 1}).refuted_by, Refutation::kEvidence);
+TEST(Successors, EvidenceIsCutUnlessItTellsItsBound) {
+  Evidence evidence = says(30.0);
+  Arrivals cut(corner(), 0, {}, evidence);
+  EXPECT_DOUBLE_EQ(cut.add_place(0, tee(), 2).of(0, corner(), 0)[0].log_likelihood, 20.0);
+  evidence.same_place_bound = [](VisitId) { return 30.0; };
+  Arrivals told(corner(), 0, {}, evidence);
+  EXPECT_DOUBLE_EQ(told.add_place(0, tee(), 2).of(0, corner(), 0)[0].log_likelihood, 30.0);
 }
 
-TEST(Alternatives, StrongEvidenceOverrulesAMisreadStar) {
-  MapBuilder walked = MapBuilder(corner(), 0).add_place(0, tee(), 2);
-  Evidence evidence;
-  evidence.same_place = [](const TopologicalMap&, VisitId, PlaceId, int) { return 30.0; };
-  const auto all = alternatives(walked.map(), {0}, walked.arrive(corridor(), 0), {}, evidence);
-  ASSERT_THAT(all, SizeIs(2));
+TEST(Successors, MinusInfinityRefutes) {
+  Arrivals walked(corner(), 0, {}, says(-kInfinity));
+  walked.add_place(0, corner(), 1).add_place(1, corner(), 1);
+  EXPECT_EQ(to(walked.of(1, corner(), 1), {PlaceId{0}, 1}).refuted_by, Refutation::kEvidence);
+}
+
+TEST(Successors, AnOperatorRefutesWhatHeExcludes) {
+  Arrivals walked(corner(), 0);
+  walked.add_place(0, corner(), 1).add_place(1, corner(), 1);
+  walked.of(1, corner(), 1);
+  const auto must = walked.of_last({PlaceId{0}, {}});
+  EXPECT_EQ(to(must, {PlaceId{0}, 1}).refuted_by, Refutation::kNone);
+  EXPECT_EQ(to(must, kNowhere).refuted_by, Refutation::kOperator);
+  const auto must_not = walked.of_last({std::nullopt, {PlaceId{0}}});
+  EXPECT_EQ(to(must_not, {PlaceId{0}, 1}).refuted_by, Refutation::kOperator);
+  EXPECT_EQ(to(must_not, kNowhere).refuted_by, Refutation::kNone);
+}
+
+TEST(Successors, AMisreadStarIsBlamedInANoisyWorldOnly) {
+  Arrivals strict(corner(), 0, {}, says(15.0));
+  EXPECT_THAT(strict.add_place(0, tee(), 2).of(0, corridor(), 0), SizeIs(1));
+  const TopologyOptions options = noisy();
+  Arrivals walked(corner(), 0, options, says(15.0));
+  const auto all = walked.add_place(0, tee(), 2).of(0, corridor(), 0);
   EXPECT_EQ(all[0].refuted_by, Refutation::kOtherView);
-  EXPECT_EQ(all[1].step.kind, StepKind::kMisread);
-  EXPECT_DOUBLE_EQ(all[1].log_likelihood, 30.0 - TopologyOptions{}.log_penalty_misread);
-  // Without the same number of gateways there is no shift.
-  EXPECT_THAT(alternatives(walked.map(), {0}, walked.arrive(tee(), 0), {}, evidence), SizeIs(1));
+  const auto misread = of_kind(all, StepKind::kMisread);
+  ASSERT_THAT(misread, SizeIs(1));
+  EXPECT_EQ(misread[0].misreading, Misreading::kFragments);
+  EXPECT_DOUBLE_EQ(misread[0].log_likelihood, 15.0 - options.log_penalty_misread);
+  // Two gateways more than the corner has: this cannot be one misreading.
+  Arrivals other(corner(), 0, options, says(15.0));
+  const auto crossed = other.add_place(0, tee(), 2).of(0, crossing(), 0);
+  EXPECT_THAT(of_kind(crossed, StepKind::kMisread), IsEmpty());
+  EXPECT_THAT(of_kind(crossed, StepKind::kAmended), IsEmpty());
 }
 
-TEST(Alternatives, StrongEvidenceClosesALoopDespiteAMisreadStar) {
+TEST(Successors, StrongEvidenceClosesALoopDespiteAMisreadStar) {
   const Star both_end = star_of({0, 1, -1, -1}, {3, 2, 1, 0});
-  MapBuilder walked = MapBuilder(corner(), 0).add_place(0, corner(), 1).add_place(1, corner(), 1);
-  Evidence evidence;
-  evidence.same_place = [](const TopologicalMap&, VisitId, PlaceId same_as, int) {
-    return same_as == PlaceId{0} ? 30.0 : -30.0;
-  };
-  const Arrival arrival = walked.arrive(both_end, 1);
-  const auto all = alternatives(walked.map(), {1}, arrival, {}, evidence);
-  ASSERT_THAT(all, SizeIs(3));
-  EXPECT_EQ(all[0].refuted_by, Refutation::kOtherView);
-  EXPECT_EQ(all[1].step.kind, StepKind::kMisread);
-  EXPECT_EQ(all[2].step.kind, StepKind::kNewPlace);
-  TopologicalMap closed = walked.map();
-  apply(all[1].step, arrival, closed);
-  EXPECT_TRUE(closed.is_closed());
-}
-
-TEST(Alternatives, StrongEvidenceOverrulesALinkOfAContradictedMap) {
-  Evidence evidence;
-  evidence.same_place = [](const TopologicalMap&, VisitId, PlaceId, int) { return 30.0; };
-  MapBuilder walked = MapBuilder(corner(), 0).add_place(0, tee(), 2).follow(0, corner(), 0);
-  const GatewayRef linked{PlaceId{1}, 2};
-
-  MapBuilder sound = walked;
-  sound.add_place(1, corner(), 1);
-  for (const Alternative& alternative :
-       alternatives(sound.map(), {1}, sound.arrive(tee(), 2), {}, evidence)) {
-    EXPECT_NE(alternative.step.kind, StepKind::kRejoin);
+  const TopologyOptions options = noisy();
+  for (const double ratio : {15.0, options.recognition_threshold - 0.1}) {
+    Arrivals walked(corner(), 0, options, says(ratio));
+    walked.add_place(0, corner(), 1).add_place(1, corner(), 1);
+    const auto all = walked.of(1, both_end, 1);
+    EXPECT_EQ(to(all, {PlaceId{0}, 1}).refuted_by, Refutation::kOtherView);
+    EXPECT_THAT(of_kind(all, StepKind::kNewPlace), SizeIs(1));
+    const auto misread = of_kind(all, StepKind::kMisread);
+    ASSERT_THAT(misread, SizeIs(ratio > options.recognition_threshold ? 1 : 0));
+    if (!misread.empty()) {
+      EXPECT_EQ(walked.after(misread[0]).pending_count(), 0);
+    }
   }
-
-  walked.contradict(0, corner(), 1);
-  const auto all = alternatives(walked.map(), {1}, walked.arrive(tee(), 2), {}, evidence);
-  EXPECT_EQ(to(all, linked).step.kind, StepKind::kRejoin);
-  EXPECT_DOUBLE_EQ(to(all, linked).log_likelihood, 30.0 - TopologyOptions{}.log_penalty_break);
 }
 
-TEST(Alternatives, ACorridorOfAnEarlierContradictionMayBeTakenAgain) {
-  MapBuilder broken = MapBuilder(corner(), 0).add_place(0, tee(), 2).follow(0, corner(), 0);
+TEST(Successors, StrongEvidenceOverrulesALinkOfAContradictedMap) {
+  const TopologyOptions options = noisy();
+  const GatewayRef linked{PlaceId{1}, 2};
+  Arrivals sound(corner(), 0, options, says(15.0));
+  sound.add_place(0, tee(), 2).follow(0, corner(), 0).add_place(1, corner(), 1);
+  EXPECT_THAT(of_kind(sound.of(1, tee(), 2), StepKind::kRejoin), IsEmpty());
+
+  Arrivals broken(corner(), 0, options, says(15.0));
+  broken.add_place(0, tee(), 2).follow(0, corner(), 0).contradict(0, corner(), 1);
+  const auto rejoined = of_kind(broken.of(1, tee(), 2), StepKind::kRejoin);
+  const Alternative& there = to(rejoined, linked);
+  EXPECT_DOUBLE_EQ(there.log_likelihood, 15.0 - options.log_penalty_break);
+}
+
+TEST(Successors, ACorridorOfAnEarlierContradictionMayBeTakenAgain) {
+  Arrivals broken(corner(), 0);
+  broken.add_place(0, tee(), 2).follow(0, corner(), 0);
   broken.contradict(0, dead_end(), 0).follow(0, corner(), 0);
-  EXPECT_EQ(broken.map().position(), (GatewayRef{PlaceId{0}, 0}));
-  const auto all = alternatives(broken.map(), {0}, broken.arrive(dead_end(), 0), {}, {});
+  EXPECT_EQ(broken.position(), (GatewayRef{PlaceId{0}, 0}));
+  const auto all = broken.of(0, dead_end(), 0);
   ASSERT_THAT(all, SizeIs(2));
   EXPECT_EQ(all[0].refuted_by, Refutation::kOtherView);
-  EXPECT_EQ(all[1].step.kind, StepKind::kRejoin);
-  EXPECT_EQ(all[1].step.target, (GatewayRef{PlaceId{2}, 0}));
+  EXPECT_EQ(all[1].kind, StepKind::kRejoin);
+  EXPECT_EQ(all[1].target, (GatewayRef{PlaceId{2}, 0}));
 }
 
-TEST(AlternativesDeathTest, EvidenceMustBeANumber) {
-  MapBuilder walked = MapBuilder(corner(), 0).add_place(0, tee(), 2);
-  Evidence evidence;
-  evidence.same_place = [](const TopologicalMap&, VisitId, PlaceId, int) {
-    return std::numeric_limits<double>::quiet_NaN();
-  };
-  const Arrival back = walked.arrive(corner(), 0);
-  EXPECT_DEATH(alternatives(walked.map(), {0}, back, {}, evidence), "ratio");
+TEST(Successors, LeaveTheMapAsItWas) {
+  Arrivals walked(corner(), 0, noisy(), says(15.0));
+  walked.add_place(0, tee(), 2).follow(0, corner(), 0).contradict(0, corner(), 1);
+  const int pending = walked.map().pending_count();
+  const GatewayIndex end = walked.map().end_gateway();
+  EXPECT_GT(walked.of(1, tee(), 2).size(), 2U);
+  EXPECT_EQ(walked.map().pending_count(), pending);
+  EXPECT_EQ(walked.map().end_gateway(), end);
+  EXPECT_EQ(walked.map().place_count(), 3);
+}
+
+TEST(SuccessorsDeathTest, EvidenceMustBeANumber) {
+  Arrivals walked(corner(), 0, {}, says(std::numeric_limits<double>::quiet_NaN()));
+  walked.add_place(0, tee(), 2);
+  EXPECT_DEATH(walked.of(0, corner(), 0), "ratio");
 }
 
 }  // namespace

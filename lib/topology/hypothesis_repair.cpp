@@ -1,0 +1,119 @@
+// What to do when nothing explains an arrival, and how a map of the past is rebuilt.
+
+#include <algorithm>
+#include <utility>
+
+#include "base/check.hpp"
+#include "topology/hypothesis_tree.hpp"
+#include "topology/lineage.hpp"
+
+namespace cairn {
+
+/// No live hypothesis explains the arrival. Those that wait are asked first; then, if stars are not
+/// expected to be misread, the whole past is searched once more with misreadings allowed, maps as
+/// likely as the best of their time first; failing that, the arrival stays unexplained.
+void HypothesisTree::repair(ExtendReport& report) {
+  report.repair.emplace();
+  search_among(waiting_, report);
+  if (candidates_.empty() && !engine_->options.noisy_stars) {
+    engine_->successors.set_noisy(true);
+    DeferredLeaves past(engine_->options.preference);
+    const Leaf first = first_leaf();
+    engine_->nodes.hold(first.node);
+    past.add(first, waiting_rank_of(first));
+    search_among(past, report);
+    engine_->successors.set_noisy(false);
+    for (const Leaf& leaf : past.take_all()) {
+      engine_->nodes.release(leaf.node);
+    }
+  }
+  report.repair->is_explained = !candidates_.empty();
+  if (candidates_.empty()) {
+    go_on_unexplained(report);
+  }
+  const auto best = std::min_element(
+      candidates_.begin(), candidates_.end(), [&](const Candidate& a, const Candidate& b) {
+        return comes_before(rank_of(a.leaf), rank_of(b.leaf), engine_->options.preference);
+      });
+  report.repair->blamed = blamed_by(*best);
+  if (!report.guarantee_given_up) {
+    report.guarantee_given_up = GuaranteeGivenUp{
+        report.visit, GuaranteeLoss::kContradiction, best->leaf.log_posterior(),
+        "no hypothesis explained the arrival; blamed: " + to_text(report.repair->blamed)};
+  }
+}
+
+/// The map of the first visit.
+Leaf HypothesisTree::first_leaf() const {
+  const TreeNodes& nodes = engine_->nodes;
+  const NodeIndex root = nodes.branch(root_).front();
+  Leaf leaf;
+  leaf.node = root;
+  leaf.position = nodes[root].position;
+  leaf.visit = VisitId{0};
+  leaf.path_count = engine_->stars.fragment_count(nodes[root].change.star);
+  leaf.place_count = 1;
+  return leaf;
+}
+
+/// Best first, until some explain the arrival.
+void HypothesisTree::search_among(DeferredLeaves& leaves, ExtendReport& report) {
+  const VisitId now = report.visit;
+  const std::int64_t most = report.repair->steps + engine_->options.max_repair_steps;
+  while (!leaves.empty() && candidates_.empty() && report.repair->steps < most) {
+    const Leaf leaf = leaves.take_best();
+    ++report.repair->steps;
+    if (leaf.visit.value + 1 == now.value) {
+      expand(leaf, report);
+      searched_.push_back(leaf.node);  // Its candidates stand on it.
+      continue;
+    }
+    ExtendReport uncounted;
+    expand(leaf, uncounted);
+    std::vector<Candidate> children = std::exchange(candidates_, {});
+    for (const Candidate& child : children) {
+      const Leaf grown = grow(child);
+      leaves.add(grown, waiting_rank_of(grown));
+    }
+    engine_->nodes.release(leaf.node);
+  }
+}
+
+/// The best hypotheses only.
+void HypothesisTree::go_on_unexplained(ExtendReport& report) {
+  Engine& engine = *engine_;
+  std::vector<Leaf> best = live_;
+  const auto most =
+      std::min(best.size(), static_cast<std::size_t>(engine.options.max_broken_hypotheses));
+  std::partial_sort(best.begin(), best.begin() + static_cast<std::ptrdiff_t>(most), best.end(),
+                    [&](const Leaf& a, const Leaf& b) {
+                      return comes_before(rank_of(a), rank_of(b), engine.options.preference);
+                    });
+  for (std::size_t index = 0; index < most; ++index) {
+    engine.cursor.at(best[index].node);
+    const Alternative broken = engine.successors.unexplained(situation_of(best[index]));
+    ++report.steps[static_cast<std::size_t>(broken.kind)];
+    ++report.breaks;
+    candidates_.push_back(candidate_of(best[index], broken));
+  }
+  report.dropped += static_cast<std::int64_t>(best.size() - most);
+}
+
+std::vector<Blame> HypothesisTree::blamed_by(const Candidate& candidate) const {
+  std::vector<Blame> blamed;
+  if (is_contradiction(candidate.kind)) {
+    blamed.push_back(
+        {candidate.leaf.visit, candidate.kind, candidate.misreading, candidate.log_likelihood});
+  }
+  const TreeNodes& nodes = engine_->nodes;
+  for (NodeIndex node = candidate.leaf.node; node != kNoNode; node = nodes[node].parent) {
+    if (is_contradiction(nodes[node].kind) && !nodes[node].is_part) {
+      blamed.push_back({nodes[node].visit, nodes[node].kind, nodes[node].misreading,
+                        static_cast<double>(nodes[node].log_likelihood)});
+    }
+  }
+  std::reverse(blamed.begin(), blamed.end());
+  return blamed;
+}
+
+}  // namespace cairn

@@ -1,0 +1,78 @@
+#include "topology/lineage.hpp"
+
+#include <algorithm>
+
+#include "base/check.hpp"
+
+namespace cairn {
+
+Lineage::Lineage(const TreeNodes& nodes,
+                 const ExperienceLog& experience,
+                 const StarCatalogue& stars,
+                 WorkingMap::Rings rings,
+                 NodeIndex node)
+    : nodes_(&nodes),
+      experience_(&experience),
+      map_(stars, rings),
+      branch_(nodes.branch(node)),
+      position_(nodes[branch_.front()].position) {
+  const TreeNode& root = nodes[branch_.front()];
+  map_.start(root.change.star, root.visit);
+  arrivals_.push_back(map_.ref(position_));
+}
+
+void Lineage::advance() {
+  const VisitId next{visit().value + 1};
+  bool is_told = false;
+  while (next_ < branch_.size() && (*nodes_)[branch_[next_]].visit == next) {
+    take((*nodes_)[branch_[next_]]);
+    ++next_;
+    is_told = true;
+  }
+  if (!is_told) {
+    const GatewayIndex departure =
+        experience_->departure(map_, position_, visit(), experience_->action(next));
+    CAIRN_CHECK(departure != kNoGateway && !map_.is_pending(departure));
+    position_ = map_.leads_to(departure);
+  }
+  arrivals_.push_back(map_.ref(position_));
+}
+
+void Lineage::take(const TreeNode& node) {
+  if (node.change.kind == MapChange::Kind::kOtherStar) {
+    const PlaceId place = map_.place_of(node.change.departure);
+    const int before = map_.gateway_count(place);
+    map_.apply(node.change);
+    renumber(place, before, node.change);
+  } else {
+    map_.apply(node.change);
+  }
+  if (!node.is_part) {
+    position_ = node.position;
+  }
+}
+
+/// A gateway more or less moves the numbers of those clockwise of it.
+void Lineage::renumber(PlaceId place, int before, const MapChange& change) {
+  const int more = map_.gateway_count(place) - before;
+  for (GatewayRef& arrival : arrivals_) {
+    const bool is_moved = arrival.place == place && more != 0 &&
+                          arrival.gateway >= change.target + (more < 0 ? 1 : 0);
+    arrival.gateway += is_moved ? more : 0;
+  }
+}
+
+int Lineage::support(PlaceId place) const {
+  const StarId star = map_.star(place);
+  int agreeing = 0;
+  for (std::size_t visit = 0; visit < arrivals_.size(); ++visit) {
+    if (arrivals_[visit].place == place) {
+      const ReadingMatch& match = experience_->matcher(VisitId{static_cast<std::int32_t>(visit)})
+                                      .match(star, arrivals_[visit].gateway);
+      agreeing += match.is_possible() && match.misreading == Misreading::kNone ? 1 : 0;
+    }
+  }
+  return agreeing;
+}
+
+}  // namespace cairn

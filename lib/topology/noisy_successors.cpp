@@ -1,0 +1,383 @@
+// Steps that blame an observation: what a map may do about a view that contradicts it.
+
+#include <algorithm>
+#include <limits>
+
+#include "star/star_edits.hpp"
+#include "topology/successors.hpp"
+
+namespace cairn {
+namespace {
+
+/// Whether the path through this gateway passes a place twice.
+bool has_place_twice(const WorkingMap& map, GatewayIndex through) {
+  std::vector<PlaceId> passed = {map.place_of(through)};
+  for (GatewayIndex exit : {through, map.through(through)}) {
+    while (exit != kNoGateway && map.is_linked(exit)) {
+      const GatewayIndex entry = map.leads_to(exit);
+      if (std::find(passed.begin(), passed.end(), map.place_of(entry)) != passed.end()) {
+        return true;
+      }
+      passed.push_back(map.place_of(entry));
+      exit = map.through(entry);
+    }
+  }
+  return false;
+}
+
+bool repeats_a_place_around(const WorkingMap& map, PlaceId place) {
+  const GatewayIndex first = map.first_gateway(place);
+  for (GatewayIndex at = first; at < first + map.gateway_count(place); ++at) {
+    if (has_place_twice(map, at)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+// This visit misread the star: the place is as it was known to be.
+void Successors::consider_misreading(GatewayIndex departure,
+                                     GatewayIndex target,
+                                     const ReadingMatch& match,
+                                     const Arrival& arrival) {
+  if (!match.is_possible()) {
+    return;
+  }
+  Alternative misread;
+  misread.kind = StepKind::kMisread;
+  misread.misreading = match.misreading;
+  misread.departure = departure;
+  misread.position = target;
+  misread.change = {MapChange::Kind::kNothing, {}, arrival.visit, departure, target};
+  misread.log_likelihood = match.log_likelihood + recognition(target, match, arrival.visit);
+  if (map_.is_pending(departure)) {
+    if (!is_worth_blaming(misread.log_likelihood, match) ||
+        refutation_of_link(departure, target) != Refutation::kNone) {
+      return;
+    }
+    misread.change.kind = MapChange::Kind::kLink;
+  }
+  add(misread, arrival);
+}
+
+/// A closure against the star takes more than the symbols: the place must be recognised.
+bool Successors::is_worth_blaming(double log_likelihood, const ReadingMatch& match) const {
+  return !evidence_->same_place ||
+         log_likelihood - match.log_likelihood > options_->recognition_threshold;
+}
+
+// Earlier visits misread the star: the place is as this visit saw it.
+void Successors::consider_amending(GatewayIndex departure,
+                                   GatewayIndex target,
+                                   const ReadingMatch& match,
+                                   const Arrival& arrival) {
+  const PlaceId place = map_.place_of(target);
+  if (!match.is_possible() || place == map_.place_of(departure)) {
+    return;
+  }
+  const double ratio = recognition(target, match, arrival.visit);
+  if (map_.is_pending(departure) && !is_worth_blaming(ratio + match.log_likelihood, match)) {
+    return;
+  }
+  const std::optional<Amendment> amendment = amendment_of(place, target, match, arrival);
+  if (!amendment) {
+    return;
+  }
+  Alternative amended;
+  amended.kind = StepKind::kAmended;
+  amended.misreading = match.misreading;
+  amended.departure = departure;
+  amended.target = {place, amendment->arrival_number};
+  amended.amendment = amendment->change;
+  amended.position = map_.end_gateway() + amendment->arrival_number;
+  amended.log_likelihood = amendment->log_likelihood + ratio;
+  amended.change = {MapChange::Kind::kNothing, {}, arrival.visit, departure, amended.position};
+  if (map_.is_pending(departure)) {
+    amended.change.kind = MapChange::Kind::kLink;
+  }
+  map_.apply(amendment->change);
+  const bool is_possible = map_.is_pending(departure) ? can_link(departure, amended.position)
+                                                      : !repeats_a_place_around(map_, place);
+  map_.undo(amendment->change);
+  if (map_.is_pending(departure)) {
+    departing_path_.depart(departure);
+  }
+  if (is_possible) {
+    add(amended, arrival);
+  }
+}
+
+/// The place's star as this visit saw it. Every visit that agreed with the old star is to blame.
+std::optional<Successors::Amendment> Successors::amendment_of(PlaceId place,
+                                                              GatewayIndex target,
+                                                              const ReadingMatch& match,
+                                                              const Arrival& arrival) {
+  const View& view = arrival.view->view();
+  const std::optional<AmendedStar> amended =
+      cairn::amended(view, match.reading, stars_->star(map_.star(place)), map_.number_of(target));
+  if (!amended) {
+    return std::nullopt;
+  }
+  const int before = map_.gateway_count(place);
+  const int after = cairn::gateway_count(amended->star);
+  if (after < before && !map_.is_pending(map_.first_gateway(place) + amended->changed_gateway)) {
+    return std::nullopt;  // The robot went through it.
+  }
+  const double own = log_likelihood_of(view, match.reading);
+  const double blame = own - match.log_likelihood;
+  const int supporters = support_ ? std::max(support_(place), 1) : 1;
+  Amendment amendment;
+  amendment.change = {MapChange::Kind::kOtherStar, stars_->add(amended->star), arrival.visit,
+                      map_.first_gateway(place), amended->changed_gateway};
+  amendment.arrival_number =
+      amended->gateway_of_view[static_cast<std::size_t>(view.arrival_gateway)];
+  amendment.log_likelihood = own - supporters * blame;
+  return amendment;
+}
+
+// The robot went straight on through the place where the link leads, and on to the next.
+void Successors::consider_unnoticed(GatewayIndex departure, const Arrival& arrival) {
+  const GatewayIndex passed = map_.leads_to(departure);
+  const GatewayIndex onward = map_.through(passed);
+  if (arrival.on_the_way != StepKind::kStart || onward == kNoGateway) {
+    return;
+  }
+  Arrival beyond = arrival;
+  beyond.log_before -= options_->log_penalty_unnoticed;
+  beyond.on_the_way = StepKind::kUnnoticed;
+  if (map_.is_pending(onward)) {
+    at_pending_gateway(onward, beyond);
+  } else {
+    at_known_link(onward, beyond);
+  }
+}
+
+// There is a place on the link that earlier travels did not notice.
+void Successors::consider_inserting(GatewayIndex departure, const Arrival& arrival) {
+  const View& view = arrival.view->view();
+  if (arrival.on_the_way != StepKind::kStart || !map_.is_linked(departure) ||
+      (options_->max_places && map_.place_count() >= *options_->max_places)) {
+    return;
+  }
+  for (int reading = 0; reading < reading_count(view); ++reading) {
+    const int number = arrival_gateway_of(view, reading);
+    if (!through_partner(star_of(view, reading), number)) {
+      continue;
+    }
+    Alternative inserted;
+    inserted.kind = StepKind::kInserted;
+    inserted.departure = departure;
+    inserted.position = map_.end_gateway() + number;
+    inserted.change = {MapChange::Kind::kInsertPlace, arrival.view->star_id(reading), arrival.visit,
+                       departure, number};
+    inserted.log_likelihood = options_->log_prior_new_place + log_likelihood_of(view, reading) -
+                              options_->log_penalty_unnoticed;
+    add(inserted, arrival);
+  }
+}
+
+// A gateway that leads here one way may also be where a travel from here ends: the corridor of an
+// earlier contradiction.
+void Successors::consider_unexplained(GatewayIndex departure, const Arrival& arrival) {
+  const GatewayIndex known_target = map_.leads_to(departure);
+  for (PlaceId place{0}; place.value < map_.place_count(); ++place.value) {
+    const GatewayIndex first = map_.first_gateway(place);
+    for (GatewayIndex at = first; at < first + map_.gateway_count(place); ++at) {
+      const ReadingMatch& match = arrival.view->match(map_.star(place), at - first);
+      if (at == known_target || map_.leads_to(at) != departure || !match.is_possible()) {
+        continue;
+      }
+      Alternative again;
+      again.kind = StepKind::kRejoin;
+      again.departure = departure;
+      again.position = at;
+      again.change = {MapChange::Kind::kNothing, {}, arrival.visit, departure, at};
+      again.log_likelihood = match.log_likelihood + recognition(at, match, arrival.visit) -
+                             options_->log_penalty_misread;
+      add(again, arrival);
+    }
+  }
+}
+
+// A map without contradictions gives no reason to doubt its links.
+void Successors::consider_rejoining(GatewayIndex departure, const Arrival& arrival) {
+  if (map_.one_way_count() == 0 || !evidence_->same_place) {
+    return;
+  }
+  for (PlaceId place{0}; place.value < map_.place_count(); ++place.value) {
+    const GatewayIndex first = map_.first_gateway(place);
+    for (GatewayIndex at = first; at < first + map_.gateway_count(place); ++at) {
+      const ReadingMatch& match = arrival.view->match(map_.star(place), at - first);
+      if (map_.is_pending(at) || !match.is_possible()) {
+        continue;
+      }
+      const double ratio = recognition(at, match, arrival.visit);
+      if (ratio > options_->recognition_threshold) {
+        Alternative again;
+        again.kind = StepKind::kRejoin;
+        again.departure = departure;
+        again.position = at;
+        again.change = {MapChange::Kind::kOneWay, {}, arrival.visit, departure, at};
+        again.log_likelihood = match.log_likelihood + ratio - options_->log_penalty_break;
+        add(again, arrival);
+      }
+    }
+  }
+}
+
+// The robot came to a known place by a gateway that earlier visits missed. Without evidence nothing
+// would tell such places apart from new ones.
+void Successors::consider_unseen_gateways(GatewayIndex departure, const Arrival& arrival) {
+  const View& view = arrival.view->view();
+  if (!evidence_->same_place || cairn::gateway_count(view.star) < 2) {
+    return;
+  }
+  const int arrived = view.arrival_gateway;
+  const int beside = (arrived + 1) % cairn::gateway_count(view.star);
+  const std::optional<Star> as_known = without_gateway(view.star, arrived);
+  if (!as_known) {
+    return;
+  }
+  const ViewClassId wanted =
+      stars_->view_class(stars_->add(*as_known), beside > arrived ? beside - 1 : beside);
+  for (PlaceId place{0}; place.value < map_.place_count(); ++place.value) {
+    const GatewayIndex first = map_.first_gateway(place);
+    for (GatewayIndex at = first; at < first + map_.gateway_count(place); ++at) {
+      if (map_.view_class(at) == wanted) {
+        consider_unseen_gateway(departure, at, beside, arrival);
+      }
+    }
+  }
+}
+
+/// @param known gateway of the place that is `beside` of the view
+void Successors::consider_unseen_gateway(GatewayIndex departure,
+                                         GatewayIndex known,
+                                         int beside,
+                                         const Arrival& arrival) {
+  const View& view = arrival.view->view();
+  const PlaceId place = map_.place_of(known);
+  const int seen_as = seen_number(known);
+  const double ratio = seen_as < 0 ? 0.0
+                                   : evidence_->same_place({map_.first_visit(place), seen_as},
+                                                           {arrival.visit, beside});
+  if (!(ratio > options_->recognition_threshold)) {
+    return;
+  }
+  const int gateways = cairn::gateway_count(view.star);
+  const int before = gateways - 1;
+  // The place's gateway 0 keeps its number, so the reading is numbered from there.
+  const int number = map_.number_of(known);
+  int first = beside;
+  for (int back = 0; back < number; ++back) {
+    first = (first + gateways - 1) % gateways;
+    first = first == view.arrival_gateway ? (first + gateways - 1) % gateways : first;
+  }
+  const int inserted = (view.arrival_gateway - first + gateways) % gateways;
+  const MapChange amendment{MapChange::Kind::kOtherStar, stars_->add(rotated_to(view.star, first)),
+                            arrival.visit, map_.first_gateway(place), inserted};
+  if (map_.gateway_count(place) != before || inserted == 0 || place == map_.place_of(departure)) {
+    return;
+  }
+  const int supporters = support_ ? std::max(support_(place), 1) : 1;
+  Alternative amended;
+  amended.kind = StepKind::kAmended;
+  amended.misreading = Misreading::kMissedGateway;
+  amended.departure = departure;
+  amended.target = {place, inserted};
+  amended.amendment = amendment;
+  amended.position = map_.end_gateway() + inserted;
+  amended.change = {MapChange::Kind::kLink, {}, arrival.visit, departure, amended.position};
+  amended.log_likelihood = std::min(ratio, options_->max_log_evidence) + view.log_likelihood -
+                           supporters * options_->log_penalty_missed_gateway;
+  map_.apply(amendment);
+  const bool is_there = map_.is_pending(departure) && can_link(departure, amended.position);
+  map_.undo(amendment);
+  if (is_there) {
+    add(amended, arrival);
+  }
+}
+
+/// On one face, or on different parts of the map, and no place twice on a path.
+bool Successors::can_link(GatewayIndex departure, GatewayIndex target) {
+  bool is_reached = !options_->planar || map_.component(map_.place_of(departure)) !=
+                                             map_.component(map_.place_of(target));
+  for (GatewayIndex at = map_.next_in_ring(departure); !is_reached && at != departure;
+       at = map_.next_in_ring(at)) {
+    is_reached = at == target;
+  }
+  if (!is_reached || repeats_a_place_around(map_, map_.place_of(target))) {
+    return false;
+  }
+  departing_path_.depart(departure);
+  return refutation_of_link(departure, target) == Refutation::kNone;
+}
+
+// The robot left by a gateway that the place's star lacks: the star must be corrected first.
+void Successors::from_unseen_gateway(GatewayIndex position, const Arrival& arrival) {
+  if (!is_noisy_) {
+    return;
+  }
+  const VisitId before{arrival.visit.value - 1};
+  Arrival amending = arrival;
+  amending.view = &experience_->matcher(before);
+  amending.visit = before;
+  const PlaceId place = map_.place_of(position);
+  const ReadingMatch& match = amending.view->match(map_.star(place), map_.number_of(position));
+  const std::optional<Amendment> amendment =
+      match.is_possible() ? amendment_of(place, position, match, amending) : std::nullopt;
+  if (!amendment) {
+    return;
+  }
+  Arrival after = arrival;
+  after.amendment = amendment->change;
+  // What the visit before was charged for misreading the star is given back.
+  after.log_before += amendment->log_likelihood - match.log_likelihood;
+  map_.apply(amendment->change);
+  const GatewayIndex departure =
+      experience_->departure(map_, map_.first_gateway(place) + amendment->arrival_number, before,
+                             experience_->action(arrival.visit));
+  if (departure != kNoGateway && map_.is_pending(departure) &&
+      !repeats_a_place_around(map_, place)) {
+    at_pending_gateway(departure, after);
+  }
+  map_.undo(amendment->change);
+}
+
+Alternative Successors::unexplained(const Situation& situation) {
+  const ReadingMatcher& view = experience_->matcher(situation.visit);
+  const VisitId before{situation.visit.value - 1};
+  Alternative broken;
+  broken.kind = StepKind::kContradiction;
+  broken.log_likelihood = options_->log_prior_new_place - options_->log_penalty_break;
+  if (!experience_->is_carried(situation.visit)) {
+    broken.departure = experience_->departure(map_, situation.position, before,
+                                              experience_->action(situation.visit));
+  }
+  if (situation.order.must_be) {
+    const GatewayIndex first = map_.first_gateway(*situation.order.must_be);
+    const int gateways = map_.gateway_count(*situation.order.must_be);
+    broken.position = first + view.view().arrival_gateway % gateways;
+    broken.target = map_.ref(broken.position);
+    const bool leads_nowhere = broken.departure != kNoGateway && map_.is_pending(broken.departure);
+    broken.change = {leads_nowhere ? MapChange::Kind::kOneWay : MapChange::Kind::kNothing,
+                     {},
+                     situation.visit,
+                     broken.departure,
+                     broken.position};
+    return broken;
+  }
+  const int number = arrival_gateway_of(view.view(), 0);
+  broken.position = map_.end_gateway() + number;
+  broken.change = {MapChange::Kind::kStrayPlace, view.star_id(0), situation.visit, broken.departure,
+                   number};
+  if (broken.departure != kNoGateway && map_.is_pending(broken.departure)) {
+    // Only the bound on places, or evidence, can have left no way out.
+    broken.change.kind = MapChange::Kind::kPlace;
+  }
+  return broken;
+}
+
+}  // namespace cairn

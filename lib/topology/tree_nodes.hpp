@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "topology/reading_match.hpp"
+#include "topology/step.hpp"
+#include "topology/working_map.hpp"
+
+namespace cairn {
+
+using NodeIndex = std::uint32_t;
+constexpr NodeIndex kNoNode = std::numeric_limits<NodeIndex>::max();
+
+/// How one map grew from another. Travels along known links leave no node, unless they were
+/// misread.
+struct TreeNode {
+  MapChange change;
+  StepKind kind = StepKind::kStart;
+  bool is_part = false;  ///< Its child, of the same visit, completes the step.
+  NodeIndex parent = kNoNode;
+  std::int32_t depth = 0;        ///< Nodes above it.
+  std::uint32_t references = 0;  ///< Children, and hypotheses that stand on it.
+  HypothesisId id;
+  VisitId visit;                       ///< At which the map grew so.
+  GatewayIndex position = kNoGateway;  ///< The gateway by which the robot came in, after the step.
+  float log_likelihood = 0.0F;         ///< Of the step.
+  Misreading misreading = Misreading::kNone;
+};
+static_assert(sizeof(TreeNode) <= 64);
+
+/// The nodes of a tree that somebody still needs: each leads to its parent; a node that has neither
+/// children nor a hypothesis on it is forgotten, and its place taken by the next one.
+class TreeNodes {
+ public:
+  /// The first node. @pre there is none
+  NodeIndex add_root(const TreeNode& node) { return add(kNoNode, node); }
+  /// The parent, id and depth of the node are filled in. Nobody holds it yet.
+  NodeIndex add(NodeIndex parent, TreeNode node);
+  /// A hypothesis stands on the node from now on.
+  void hold(NodeIndex node) { ++nodes_[node].references; }
+  /// A hypothesis has left; forgets the node and those above it that nobody needs any more.
+  void release(NodeIndex node);
+
+  [[nodiscard]] const TreeNode& operator[](NodeIndex node) const { return nodes_[node]; }
+  [[nodiscard]] std::size_t count() const { return nodes_.size() - free_.size(); }
+  /// Ids below it are not given any more.
+  void skip_ids(std::int32_t next_id) { next_id_ = next_id; }
+  /// Given so far.
+  [[nodiscard]] std::int32_t next_id() const { return next_id_; }
+  /// Calls visit(index, node) for each that is needed, in no order.
+  template <typename Visitor>
+  void for_each(Visitor visit) const {
+    for (NodeIndex index = 0; index < nodes_.size(); ++index) {
+      if (nodes_[index].references > 0) {
+        visit(index, nodes_[index]);
+      }
+    }
+  }
+  [[nodiscard]] std::size_t bytes() const {
+    return nodes_.capacity() * sizeof(TreeNode) + free_.capacity() * sizeof(NodeIndex);
+  }
+  /// From just below the ancestor down to the node.
+  /// @param ancestor kNoNode: from the root on
+  [[nodiscard]] std::vector<NodeIndex> branch(NodeIndex node, NodeIndex ancestor = kNoNode) const;
+  [[nodiscard]] NodeIndex common_ancestor(NodeIndex a, NodeIndex b) const;
+
+ private:
+  std::vector<TreeNode> nodes_;
+  std::vector<NodeIndex> free_;
+  std::int32_t next_id_ = 0;
+};
+
+/// A working map that moves about in the tree: it takes back the changes up to the common ancestor,
+/// and carries out those down to the wanted node. Nodes above which it stands may be forgotten.
+class MapCursor {
+ public:
+  /// @param nodes, stars outlive the cursor
+  MapCursor(const TreeNodes& nodes, const StarCatalogue& stars, WorkingMap::Rings rings)
+      : nodes_(&nodes), map_(stars, rings) {}
+
+  /// The map of the root. @pre not started
+  void start(NodeIndex root);
+  /// The map of a node. Changes that the caller makes to it must be taken back before the next
+  /// call.
+  /// @pre started; the node is not forgotten
+  WorkingMap& at(NodeIndex node);
+  [[nodiscard]] const WorkingMap& map() const { return map_; }
+  [[nodiscard]] WorkingMap& map() { return map_; }
+
+ private:
+  struct Applied {
+    HypothesisId id;
+    MapChange change;
+  };
+
+  const TreeNodes* nodes_;
+  WorkingMap map_;
+  std::vector<Applied> applied_;     // By depth.
+  std::vector<NodeIndex> downward_;  // Reused.
+};
+
+}  // namespace cairn
