@@ -12,30 +12,37 @@ NodeIndex TreeNodes::add(NodeIndex parent, TreeNode node) {
   node.references = 0;
   node.depth = 0;
   if (parent != kNoNode) {
-    node.depth = nodes_[parent].depth + 1;
-    ++nodes_[parent].references;
+    node.depth = of(parent).depth + 1;
+    ++of(parent).references;
   }
-  if (free_.empty()) {
-    CAIRN_CHECK(nodes_.size() < kNoNode);
-    nodes_.push_back(node);
-    return static_cast<NodeIndex>(nodes_.size() - 1);
+  NodeIndex index = first_free_;
+  if (index == kNoNode) {
+    if (used_ == blocks_.size() * kBlock) {
+      CAIRN_CHECK(used_ < kNoNode - kBlock);
+      blocks_.push_back(std::make_unique<TreeNode[]>(kBlock));
+    }
+    index = used_++;
+  } else {
+    first_free_ = of(index).parent;
   }
-  const NodeIndex index = free_.back();
-  free_.pop_back();
-  nodes_[index] = node;
+  of(index) = node;
+  ++count_;
   return index;
 }
 
 void TreeNodes::release(NodeIndex node) {
-  while (node != kNoNode && --nodes_[node].references == 0) {
-    free_.push_back(node);
-    node = nodes_[node].parent;
+  while (node != kNoNode && --of(node).references == 0) {
+    const NodeIndex parent = of(node).parent;
+    of(node).parent = first_free_;
+    first_free_ = node;
+    --count_;
+    node = parent;
   }
 }
 
 std::vector<NodeIndex> TreeNodes::branch(NodeIndex node, NodeIndex ancestor) const {
   std::vector<NodeIndex> branch;
-  for (; node != ancestor && node != kNoNode; node = nodes_[node].parent) {
+  for (; node != ancestor && node != kNoNode; node = (*this)[node].parent) {
     branch.push_back(node);
   }
   std::reverse(branch.begin(), branch.end());
@@ -44,8 +51,8 @@ std::vector<NodeIndex> TreeNodes::branch(NodeIndex node, NodeIndex ancestor) con
 
 NodeIndex TreeNodes::common_ancestor(NodeIndex a, NodeIndex b) const {
   while (a != b) {
-    NodeIndex& deeper = nodes_[a].depth >= nodes_[b].depth ? a : b;
-    deeper = nodes_[deeper].parent;
+    NodeIndex& deeper = (*this)[a].depth >= (*this)[b].depth ? a : b;
+    deeper = (*this)[deeper].parent;
   }
   return a;
 }

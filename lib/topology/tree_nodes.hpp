@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "topology/reading_match.hpp"
@@ -40,12 +41,14 @@ class TreeNodes {
   /// The parent, id and depth of the node are filled in. Nobody holds it yet.
   NodeIndex add(NodeIndex parent, TreeNode node);
   /// A hypothesis stands on the node from now on.
-  void hold(NodeIndex node) { ++nodes_[node].references; }
+  void hold(NodeIndex node) { ++of(node).references; }
   /// A hypothesis has left; forgets the node and those above it that nobody needs any more.
   void release(NodeIndex node);
 
-  [[nodiscard]] const TreeNode& operator[](NodeIndex node) const { return nodes_[node]; }
-  [[nodiscard]] std::size_t count() const { return nodes_.size() - free_.size(); }
+  [[nodiscard]] const TreeNode& operator[](NodeIndex node) const {
+    return blocks_[node / kBlock][node % kBlock];
+  }
+  [[nodiscard]] std::size_t count() const { return count_; }
   /// Ids below it are not given any more.
   void skip_ids(std::int32_t next_id) { next_id_ = next_id; }
   /// Given so far.
@@ -53,23 +56,27 @@ class TreeNodes {
   /// Calls visit(index, node) for each that is needed, in no order.
   template <typename Visitor>
   void for_each(Visitor visit) const {
-    for (NodeIndex index = 0; index < nodes_.size(); ++index) {
-      if (nodes_[index].references > 0) {
-        visit(index, nodes_[index]);
+    for (NodeIndex index = 0; index < used_; ++index) {
+      if ((*this)[index].references > 0) {
+        visit(index, (*this)[index]);
       }
     }
   }
-  [[nodiscard]] std::size_t bytes() const {
-    return nodes_.capacity() * sizeof(TreeNode) + free_.capacity() * sizeof(NodeIndex);
-  }
+  [[nodiscard]] std::size_t bytes() const { return blocks_.size() * kBlock * sizeof(TreeNode); }
   /// From just below the ancestor down to the node.
   /// @param ancestor kNoNode: from the root on
   [[nodiscard]] std::vector<NodeIndex> branch(NodeIndex node, NodeIndex ancestor = kNoNode) const;
   [[nodiscard]] NodeIndex common_ancestor(NodeIndex a, NodeIndex b) const;
 
  private:
-  std::vector<TreeNode> nodes_;
-  std::vector<NodeIndex> free_;
+  static constexpr std::size_t kBlock = 1024;
+
+  [[nodiscard]] TreeNode& of(NodeIndex node) { return blocks_[node / kBlock][node % kBlock]; }
+
+  std::vector<std::unique_ptr<TreeNode[]>> blocks_;  // Grows without moving, by a block at a time.
+  NodeIndex used_ = 0;                               // Of the blocks, free ones included.
+  NodeIndex first_free_ = kNoNode;                   // Their `parent` is the next free one.
+  std::size_t count_ = 0;
   std::int32_t next_id_ = 0;
 };
 
