@@ -48,6 +48,7 @@ std::vector<Leaf> DeferredLeaves::take_worst_half() {
     worst.push_back(next->leaf);
   }
   waiting_.erase(waiting_.begin() + kept, waiting_.end());
+  waiting_.shrink_to_fit();
   std::make_heap(waiting_.begin(), waiting_.end(),
                  [&](const Waiting& a, const Waiting& b) { return is_worse(a, b); });
   return worst;

@@ -31,7 +31,7 @@ class DeferredLeaves {
       visit(one.leaf);
     }
   }
-  [[nodiscard]] std::size_t bytes() const { return waiting_.capacity() * sizeof(Waiting); }
+  [[nodiscard]] std::size_t bytes() const { return waiting_.size() * sizeof(Waiting); }
 
  private:
   struct Waiting {

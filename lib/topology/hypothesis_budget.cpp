@@ -122,7 +122,7 @@ void HypothesisTree::defer(const Candidate& candidate, ExtendReport& report) {
 }
 
 /// Takes up again those that wait and have come to be better than a live one.
-void HypothesisTree::revive(ExtendReport& report) {
+void HypothesisTree::revive(const Deadline& is_time_up, ExtendReport& report) {
   const TopologyOptions& options = engine_->options;
   const auto most = static_cast<std::size_t>(options.max_hypotheses);
   const auto is_better = [&](const Leaf& a, const Leaf& b) {
@@ -132,6 +132,9 @@ void HypothesisTree::revive(ExtendReport& report) {
     auto worst = std::max_element(live_.begin(), live_.end(), is_better);
     if (live_.size() >= most &&
         !comes_before(waiting_.best_rank(), waiting_rank_of(*worst), options.preference)) {
+      break;
+    }
+    if (is_time_up && is_time_up()) {
       break;
     }
     const Leaf next = waiting_.take_best();
@@ -170,9 +173,24 @@ void HypothesisTree::make_room(ExtendReport& report) {
     return held.bytes_of_leaves + held.bytes_of_nodes >
            static_cast<std::size_t>(engine_->options.max_bytes);
   };
-  while (is_full() && waiting_.count() > 0) {
+  while (is_full() && !waiting_.empty()) {
     give_up(waiting_.take_worst_half(), report);
   }
+  while (is_full() && live_.size() > 1) {
+    give_up(take_worst_half_of_live(), report);
+  }
+}
+
+/// The others keep their order.
+std::vector<Leaf> HypothesisTree::take_worst_half_of_live() {
+  const std::size_t kept = (live_.size() + 1) / 2;
+  const Rank last_kept = rank_of(ranked()[kept - 1]);
+  const auto first_out = std::stable_partition(live_.begin(), live_.end(), [&](const Leaf& leaf) {
+    return !comes_before(last_kept, rank_of(leaf), engine_->options.preference);
+  });
+  std::vector<Leaf> worst(first_out, live_.end());
+  live_.erase(first_out, live_.end());
+  return worst;
 }
 
 void HypothesisTree::give_up(std::vector<Leaf> leaves, ExtendReport& report) {
@@ -186,7 +204,7 @@ void HypothesisTree::give_up(std::vector<Leaf> leaves, ExtendReport& report) {
   if (!report.guarantee_given_up && !leaves.empty()) {
     report.guarantee_given_up = GuaranteeGivenUp{
         report.visit, GuaranteeLoss::kBudget, bound,
-        std::to_string(leaves.size()) + " waiting hypotheses, at most e^" + std::to_string(bound) +
+        std::to_string(leaves.size()) + " hypotheses, at most e^" + std::to_string(bound) +
             " likely, were given up: max_bytes is " + std::to_string(engine_->options.max_bytes)};
   }
 }

@@ -15,10 +15,12 @@ namespace cairn {
 void HypothesisTree::repair(ExtendReport& report) {
   report.repair.emplace();
   search_among(waiting_, report);
+  const bool is_among_waiting = !candidates_.empty();  // Consistent all the time: nothing is lost.
   if (candidates_.empty() && !engine_->options.noisy_stars) {
     engine_->successors.set_noisy(true);
     DeferredLeaves past(engine_->options.preference);
     const Leaf first = first_leaf();
+    root_ = first.node;  // What all agreed on may be in doubt again.
     engine_->nodes.hold(first.node);
     past.add(first, waiting_rank_of(first));
     search_among(past, report);
@@ -36,7 +38,7 @@ void HypothesisTree::repair(ExtendReport& report) {
         return comes_before(rank_of(a.leaf), rank_of(b.leaf), engine_->options.preference);
       });
   report.repair->blamed = blamed_by(*best);
-  if (!report.guarantee_given_up) {
+  if (!is_among_waiting && !report.guarantee_given_up) {
     report.guarantee_given_up = GuaranteeGivenUp{
         report.visit, GuaranteeLoss::kContradiction, best->leaf.log_posterior(),
         "no hypothesis explained the arrival; blamed: " + to_text(report.repair->blamed)};
@@ -95,6 +97,10 @@ void HypothesisTree::go_on_unexplained(ExtendReport& report) {
     ++report.steps[static_cast<std::size_t>(broken.kind)];
     ++report.breaks;
     candidates_.push_back(candidate_of(best[index], broken));
+  }
+  for (std::size_t index = most; index < best.size(); ++index) {
+    log_given_up_ = std::max(log_given_up_,
+                             best[index].log_posterior() - log_bound_[best[index].visit.index()]);
   }
   report.dropped += static_cast<std::int64_t>(best.size() - most);
 }

@@ -150,7 +150,7 @@ ExtendReport HypothesisTree::absorb_next(const Deadline& is_time_up) {
   }
   keep_best(report);
   log_bound_.push_back(log_bound_.back() + most_gained_at(report.visit));
-  revive(report);
+  revive(is_time_up, report);
   lay_out(report);
   make_room(report);
   advance_root();
@@ -207,9 +207,8 @@ void HypothesisTree::expand(const Leaf& leaf, ExtendReport& report) {
   Engine& engine = *engine_;
   engine.cursor.at(leaf.node);
   const Situation situation = situation_of(leaf);
-  if (engine.options.noisy_stars) {
-    engine.successors.set_support([&](PlaceId place) { return support_of(leaf, place); });
-  }
+  // Also asked where stars are not expected to be misread, by a repair search.
+  engine.successors.set_support([&](PlaceId place) { return support_of(leaf, place); });
   engine.successors.list(situation, Successors::Detail::kPossible, alternatives_);
   const std::size_t before = candidates_.size();
   for (const Alternative& alternative : alternatives_) {
@@ -262,6 +261,9 @@ PlaceOrder HypothesisTree::order_for(const Leaf& leaf, VisitId visit) const {
   for (const OperatorAssertion& assertion : assertions_.ending_at(visit)) {
     const std::optional<PlaceId> other = place_of_visit(leaf, std::min(assertion.a, assertion.b));
     if (assertion.is_same) {
+      if (order.must_be && order.must_be != other) {
+        order.must_not_be.push_back(*order.must_be);  // It cannot be at both: at none.
+      }
       order.must_be = other;
     } else if (other) {
       order.must_not_be.push_back(*other);

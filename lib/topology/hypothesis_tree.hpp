@@ -204,7 +204,7 @@ class HypothesisTree {
   /// Root, closures and new places: "maps ever built".
   [[nodiscard]] std::int64_t maps_built() const { return maps_built_; }
   [[nodiscard]] int visit_count() const { return engine_->experience.size(); }
-  /// Memory held.
+  /// Memory in use. What was freed is used again before more is taken.
   struct Memory {
     std::size_t nodes = 0;  ///< Stored.
     std::size_t bytes_of_nodes = 0;
@@ -251,9 +251,10 @@ class HypothesisTree {
   [[nodiscard]] Leaf grow(const Candidate& candidate);
   void defer(const Leaf& leaf, ExtendReport& report);
   void defer(const Candidate& candidate, ExtendReport& report);
-  void revive(ExtendReport& report);
+  void revive(const Deadline& is_time_up, ExtendReport& report);
   void bring_forward(const Leaf& leaf, ExtendReport& report);
   void make_room(ExtendReport& report);
+  [[nodiscard]] std::vector<Leaf> take_worst_half_of_live();
   void give_up(std::vector<Leaf> leaves, ExtendReport& report);
   void repair(ExtendReport& report);
   void search_among(DeferredLeaves& leaves, ExtendReport& report);

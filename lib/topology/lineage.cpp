@@ -54,11 +54,15 @@ void Lineage::take(const TreeNode& node) {
 
 /// A gateway more or less moves the numbers of those clockwise of it.
 void Lineage::renumber(PlaceId place, int before, const MapChange& change) {
-  const int more = map_.gateway_count(place) - before;
+  const int gateways = map_.gateway_count(place);
+  const int first_moved = change.target + (gateways < before ? 1 : 0);
   for (GatewayRef& arrival : arrivals_) {
-    const bool is_moved = arrival.place == place && more != 0 &&
-                          arrival.gateway >= change.target + (more < 0 ? 1 : 0);
-    arrival.gateway += is_moved ? more : 0;
+    if (arrival.place == place && gateways != before && arrival.gateway >= first_moved) {
+      arrival.gateway += gateways - before;
+    }
+    if (arrival.place == place) {
+      arrival.gateway %= gateways;  // One that turned out not to exist: the next one clockwise.
+    }
   }
 }
 

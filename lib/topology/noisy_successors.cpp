@@ -122,8 +122,8 @@ std::optional<Successors::Amendment> Successors::amendment_of(PlaceId place,
   }
   const int before = map_.gateway_count(place);
   const int after = cairn::gateway_count(amended->star);
-  if (after < before && !map_.is_pending(map_.first_gateway(place) + amended->changed_gateway)) {
-    return std::nullopt;  // The robot went through it.
+  if (after < before && was_used(map_.first_gateway(place) + amended->changed_gateway)) {
+    return std::nullopt;
   }
   const double own = log_likelihood_of(view, match.reading);
   const double blame = own - match.log_likelihood;
@@ -135,6 +135,20 @@ std::optional<Successors::Amendment> Successors::amendment_of(PlaceId place,
       amended->gateway_of_view[static_cast<std::size_t>(view.arrival_gateway)];
   amendment.log_likelihood = own - supporters * blame;
   return amendment;
+}
+
+/// Whether the robot went through the gateway, or was where it came in by it: it is no false one.
+bool Successors::was_used(GatewayIndex at) const {
+  const View& first = experience_->view(map_.first_visit(map_.place_of(at)));
+  if (!map_.is_pending(at) || seen_number(at) == first.arrival_gateway) {
+    return true;
+  }
+  for (GatewayIndex other = 0; map_.one_way_count() > 0 && other < map_.end_gateway(); ++other) {
+    if (map_.leads_to(other) == at) {
+      return true;
+    }
+  }
+  return false;
 }
 
 // The robot went straight on through the place where the link leads, and on to the next.

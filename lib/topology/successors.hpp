@@ -129,6 +129,7 @@ class Successors {
                                                       GatewayIndex target,
                                                       const ReadingMatch& match,
                                                       const Arrival& arrival);
+  [[nodiscard]] bool was_used(GatewayIndex at) const;
   void consider_unnoticed(GatewayIndex departure, const Arrival& arrival);
   void consider_inserting(GatewayIndex departure, const Arrival& arrival);
   void consider_unexplained(GatewayIndex departure, const Arrival& arrival);

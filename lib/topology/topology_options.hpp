@@ -42,8 +42,9 @@ struct TopologyOptions {
   /// Live hypotheses: the best ones, judged before the new layouts are known. The others wait and
   /// are taken up again when they come to be among the best. [1, 10000000]
   int max_hypotheses = 2000;
-  /// Memory of the tree: when it is full, those that wait and are the least probable are given up,
-  /// and with them the guarantee. [65536, 1e12]
+  /// Memory of nodes and leaves after each arrival: when it is full, the worse half of those that
+  /// wait is given up, and again, then that of the live ones, and with them the guarantee.
+  /// [65536, 1e12]
   std::int64_t max_bytes = 64 << 20;
   int max_revivals = 200;          ///< Steps of waiting hypotheses per arrival. [0, 10000000]
   int max_repair_steps = 20000;    ///< Steps of one repair search. [0, 10000000]

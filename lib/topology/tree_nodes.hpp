@@ -62,7 +62,12 @@ class TreeNodes {
       }
     }
   }
-  [[nodiscard]] std::size_t bytes() const { return blocks_.size() * kBlock * sizeof(TreeNode); }
+  /// Of the nodes that are needed: the places of forgotten ones are used again.
+  [[nodiscard]] std::size_t bytes() const { return count() * sizeof(TreeNode); }
+  /// Of all blocks.
+  [[nodiscard]] std::size_t bytes_held() const {
+    return blocks_.size() * kBlock * sizeof(TreeNode);
+  }
   /// From just below the ancestor down to the node.
   /// @param ancestor kNoNode: from the root on
   [[nodiscard]] std::vector<NodeIndex> branch(NodeIndex node, NodeIndex ancestor = kNoNode) const;

@@ -9,7 +9,7 @@
 namespace cairn {
 namespace {
 
-/// A map that is carried on by the likeliest step at each visit.
+/// A map that is carried on by any steps that explain what came, the likeliest first.
 class WhatIf {
  public:
   WhatIf(const TopologyOptions& options,
@@ -21,38 +21,83 @@ class WhatIf {
         position_(lineage_.position()),
         successors_(options, evidence, experience, stars, lineage_.map()) {}
 
+  enum class Outcome { kExplained, kRefuted, kUnknown };
+
   void take(const Alternative& step) {
     lineage_.map().apply(step.amendment);
     lineage_.map().apply(step.change);
     position_ = step.position;
     log_likelihood_ += step.log_likelihood;
   }
-  /// False: nothing explains the visit.
-  bool explain(VisitId visit) {
-    std::vector<Alternative> possible;
-    successors_.list({position_, visit, {}}, Successors::Detail::kPossible, possible);
-    const auto best = std::max_element(possible.begin(), possible.end(),
-                                       [](const Alternative& a, const Alternative& b) {
-                                         return a.log_likelihood < b.log_likelihood;
-                                       });
-    if (best == possible.end()) {
-      return false;
+  /// The visits from `first` to `last`, both included. Depth first.
+  Outcome explain(VisitId first, VisitId last, int max_steps) {
+    std::vector<Level> levels;
+    VisitId next = first;
+    for (int step = 0; next <= last && step < max_steps; ++step) {
+      levels.push_back(level_of(next));
+      while (!levels.empty() && levels.back().untried.empty()) {
+        levels.pop_back();
+        if (!levels.empty()) {
+          take_back(levels.back());
+        }
+      }
+      if (levels.empty()) {
+        return Outcome::kRefuted;
+      }
+      Level& level = levels.back();
+      level.taken = level.untried.back();
+      level.untried.pop_back();
+      take(level.taken);
+      next.value = first.value + static_cast<std::int32_t>(levels.size());
     }
-    take(*best);
-    return true;
-  }
-  /// What speaks against the step that came nearest to explaining the visit.
-  Refutation obstacle(VisitId visit) {
-    std::vector<Alternative> all;
-    successors_.list({position_, visit, {}}, Successors::Detail::kAll, all);
-    return all.empty() ? Refutation::kOtherView : all.front().refuted_by;
+    return next > last ? Outcome::kExplained : Outcome::kUnknown;
   }
   [[nodiscard]] double log_likelihood() const { return log_likelihood_; }
+  /// The latest visit that could not be explained, and what spoke against its first alternative.
+  [[nodiscard]] VisitId latest() const { return latest_; }
+  [[nodiscard]] Refutation obstacle() const { return obstacle_; }
 
  private:
+  struct Level {
+    std::vector<Alternative> untried;  ///< The likeliest last.
+    Alternative taken;
+    GatewayIndex position = kNoGateway;  ///< Before the visit.
+    double log_likelihood = 0.0;
+  };
+
+  Level level_of(VisitId visit) {
+    Level level;
+    level.position = position_;
+    level.log_likelihood = log_likelihood_;
+    successors_.list({position_, visit, {}}, Successors::Detail::kAll, all_);
+    for (auto one = all_.rbegin(); one != all_.rend(); ++one) {
+      if (one->refuted_by == Refutation::kNone) {
+        level.untried.push_back(*one);
+      }
+    }
+    std::stable_sort(level.untried.begin(), level.untried.end(),
+                     [](const Alternative& a, const Alternative& b) {
+                       return a.log_likelihood < b.log_likelihood;
+                     });
+    if (level.untried.empty() && visit > latest_) {
+      latest_ = visit;
+      obstacle_ = all_.empty() ? Refutation::kOtherView : all_.front().refuted_by;
+    }
+    return level;
+  }
+  void take_back(const Level& level) {
+    lineage_.map().undo(level.taken.change);
+    lineage_.map().undo(level.taken.amendment);
+    position_ = level.position;
+    log_likelihood_ = level.log_likelihood;
+  }
+
   Lineage lineage_;
   GatewayIndex position_;
   Successors successors_;
+  std::vector<Alternative> all_;  // Reused.
+  VisitId latest_;
+  Refutation obstacle_ = Refutation::kNone;
   double log_likelihood_ = 0.0;
 };
 
@@ -96,10 +141,17 @@ HypothesisTree::Fate HypothesisTree::why_not(HypothesisId live,
   WhatIf other(engine.options, engine.evidence, engine.experience, engine.stars,
                std::move(lineage));
   other.take(all[alternative]);
-  for (VisitId next{visit.value + 1}; next.value < visit_count(); ++next.value) {
-    if (!other.explain(next)) {
-      return refute(next, other.obstacle(next));
-    }
+  const auto outcome =
+      other.explain(VisitId{visit.value + 1}, last_visit(), engine.options.max_repair_steps);
+  if (outcome == WhatIf::Outcome::kRefuted) {
+    return refute(other.latest(), other.obstacle());
+  }
+  if (outcome == WhatIf::Outcome::kUnknown) {
+    fate.visit = last_visit();
+    fate.sentence = asked.sentence +
+                    "; whether it explains everything since was not found out in " +
+                    std::to_string(engine.options.max_repair_steps) + " steps";
+    return fate;
   }
   log_taken -= log_steps_before(leaf, visit);
   fate.visit = last_visit();
