@@ -102,7 +102,7 @@ void HypothesisTree::regrow() {
   given_up_.reset();
   log_given_up_ = -std::numeric_limits<double>::infinity();
   plant();
-  while (static_cast<int>(best_log_posterior_.size()) < visits) {
+  while (static_cast<int>(baseline_log_posterior_.size()) < visits) {
     static_cast<void>(absorb_next({}));
   }
 }

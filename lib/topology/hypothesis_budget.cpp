@@ -14,11 +14,11 @@ Rank HypothesisTree::rank_of(const Leaf& leaf) const {
           engine_->nodes[leaf.node].id.value};
 }
 
-/// Compared with the best of its own time: what comes later is as likely for all, until it is known
-/// better.
+/// Compared with the baseline of its own time: what comes later is as likely for all, until it is
+/// known better.
 Rank HypothesisTree::waiting_rank_of(const Leaf& leaf) const {
   Rank rank = rank_of(leaf);
-  rank.log_posterior -= best_log_posterior_[leaf.visit.index()];
+  rank.log_posterior -= baseline_log_posterior_[leaf.visit.index()];
   return rank;
 }
 
@@ -49,7 +49,8 @@ void HypothesisTree::keep_best(ExtendReport& report) {
       best = std::max(best, grown.back().log_posterior());
     }
   }
-  best_log_posterior_.push_back(best);
+  baseline_log_posterior_.push_back(
+      std::max(best, baseline_log_posterior_.back() + engine_->options.log_prior_new_place));
   for (std::size_t index = 0; index < candidates_.size(); ++index) {
     if (waits[index]) {
       defer(candidates_[index], report);

@@ -129,7 +129,7 @@ void HypothesisTree::plant() {
   live_ = {first_leaf()};
   node_count_ = 1;
   maps_built_ = 1;
-  best_log_posterior_ = {0.0};
+  baseline_log_posterior_ = {0.0};
   log_bound_ = {0.0};
   ExtendReport unreported;
   lay_out(unreported);
@@ -139,7 +139,7 @@ void HypothesisTree::plant() {
 ExtendReport HypothesisTree::absorb_next(const Deadline& is_time_up) {
   Engine& engine = *engine_;
   ExtendReport report;
-  report.visit = VisitId{static_cast<std::int32_t>(best_log_posterior_.size())};
+  report.visit = VisitId{static_cast<std::int32_t>(baseline_log_posterior_.size())};
   const auto refuted_before = engine.successors.refuted();
   const std::int64_t contradicted_before = engine.successors.links_contradicted();
   candidates_.clear();
@@ -294,6 +294,7 @@ void HypothesisTree::lay_out(ExtendReport& report) {
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return live_[a].log_posterior() > live_[b].log_posterior();
   });
+  const double best_before = live_[order.front()].log_posterior();
   double best = -kInfinity;
   for (const std::size_t index : order) {
     Leaf& leaf = live_[index];
@@ -307,7 +308,10 @@ void HypothesisTree::lay_out(ExtendReport& report) {
     best = std::max(best, leaf.log_posterior());
     ++report.layouts_evaluated;
   }
-  best_log_posterior_.back() = best;
+  // The layout makes all less likely, those that wait too once they are laid out.
+  if (std::isfinite(best) && std::isfinite(best_before)) {
+    baseline_log_posterior_.back() += best - best_before;
+  }
 }
 
 // What only one thing below needs is shared by all leaves.

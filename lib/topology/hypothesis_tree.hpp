@@ -303,7 +303,9 @@ class HypothesisTree {
   DeferredLeaves waiting_;
   NodeIndex root_ = kNoNode;  // The deepest one that all leaves stand on or below.
   OperatorAssertions assertions_;
-  std::vector<double> best_log_posterior_;  // After each visit.
+  // By visit: of the best live one, but falling no faster than that of a map that grows by a new
+  // place each time. Otherwise none that waits would be looked at when all live ones fail.
+  std::vector<double> baseline_log_posterior_;
   std::vector<double> log_bound_;           // By visit: what all steps up to it may have gained.
   std::int64_t node_count_ = 0;
   std::int64_t maps_built_ = 0;
