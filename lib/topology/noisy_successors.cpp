@@ -74,7 +74,9 @@ void Successors::consider_amending(GatewayIndex departure,
                                    const ReadingMatch& match,
                                    const Arrival& arrival) {
   const PlaceId place = map_.place_of(target);
-  if (!match.is_possible() || place == map_.place_of(departure)) {
+  // A step corrects one star at most.
+  if (!match.is_possible() || place == map_.place_of(departure) ||
+      arrival.amendment.kind != MapChange::Kind::kNothing) {
     return;
   }
   const double ratio = recognition(target, match, arrival.visit);
@@ -245,7 +247,8 @@ void Successors::consider_rejoining(GatewayIndex departure, const Arrival& arriv
 // would tell such places apart from new ones.
 void Successors::consider_unseen_gateways(GatewayIndex departure, const Arrival& arrival) {
   const View& view = arrival.view->view();
-  if (!evidence_->same_place || cairn::gateway_count(view.star) < 2) {
+  if (!evidence_->same_place || cairn::gateway_count(view.star) < 2 ||
+      arrival.amendment.kind != MapChange::Kind::kNothing) {
     return;
   }
   const int arrived = view.arrival_gateway;
