@@ -49,7 +49,7 @@ void BM_AllMapsOf4x4(benchmark::State& state) {
   report(*tree, nodes, state);
   const HypothesisTree::Memory memory = tree->memory();
   state.counters["bytes_per_node"] =
-      static_cast<double>(memory.bytes_of_nodes) / static_cast<double>(memory.nodes);
+      static_cast<double>(memory.bytes_held_for_nodes) / static_cast<double>(memory.nodes);
 }
 BENCHMARK(BM_AllMapsOf4x4)
     ->ArgNames({"planar", "places"})

@@ -208,7 +208,8 @@ class HypothesisTree {
   struct Memory {
     std::size_t nodes = 0;  ///< Stored.
     std::size_t bytes_of_nodes = 0;
-    std::size_t bytes_of_leaves = 0;  ///< Live and waiting.
+    std::size_t bytes_held_for_nodes = 0;  ///< Room for new ones included.
+    std::size_t bytes_of_leaves = 0;       ///< Live and waiting.
     std::size_t bytes_of_experience = 0;
     std::size_t bytes_of_map = 0;
   };
@@ -306,7 +307,7 @@ class HypothesisTree {
   // By visit: of the best live one, but falling no faster than that of a map that grows by a new
   // place each time. Otherwise none that waits would be looked at when all live ones fail.
   std::vector<double> baseline_log_posterior_;
-  std::vector<double> log_bound_;           // By visit: what all steps up to it may have gained.
+  std::vector<double> log_bound_;  // By visit: what all steps up to it may have gained.
   std::int64_t node_count_ = 0;
   std::int64_t maps_built_ = 0;
   std::optional<GuaranteeGivenUp> given_up_;

@@ -254,6 +254,7 @@ HypothesisTree::Memory HypothesisTree::memory() const {
   Memory memory;
   memory.nodes = engine_->nodes.count();
   memory.bytes_of_nodes = engine_->nodes.bytes();
+  memory.bytes_held_for_nodes = engine_->nodes.bytes_held();
   memory.bytes_of_leaves = live_.size() * sizeof(Leaf) + waiting_.bytes();
   memory.bytes_of_experience = engine_->experience.bytes();
   memory.bytes_of_map = engine_->cursor.map().bytes();
