@@ -61,7 +61,7 @@ Face face_from(const WorkingMap& map, const ObservedWalk& walk, GatewayIndex fir
 int recounted_need(const WorkingMap& map, const ObservedWalk& walk) {
   int need = 0;
   std::set<GatewayIndex> counted;
-  for (GatewayIndex at = 0; at < map.gateway_count(); ++at) {
+  for (GatewayIndex at = 0; at < map.end_gateway(); ++at) {
     if (map.is_pending(at) && counted.count(at) == 0) {
       const Face face = face_from(map, walk, at);
       need += face.need();
@@ -81,7 +81,7 @@ int change_randomly(WorkingMap* map,
     return static_cast<int>((*random)() % static_cast<unsigned>(count));
   };
   std::vector<GatewayIndex> pending;
-  for (GatewayIndex at = 0; at < map->gateway_count(); ++at) {
+  for (GatewayIndex at = 0; at < map->end_gateway(); ++at) {
     if (map->is_pending(at)) {
       pending.push_back(at);
     }

@@ -98,19 +98,21 @@ TEST(Enumeration, AgreesWithATreeThatKeepsItsLeaves) {
     kept.planar = seed % 2 == 0;
     kept.max_hypotheses = 1'000'000;
     HypothesisTree tree(kept);
-    tree.start(walk.start);
+    ASSERT_TRUE(tree.start(walk.start).ok());
     for (const test::Experienced& step : walk.steps) {
-      static_cast<void>(tree.extend(step.action, step.view));
+      ASSERT_TRUE(tree.extend(step.action, step.view).ok());
     }
     const auto count = [&](auto holds) {
-      return std::count_if(tree.fringe().begin(), tree.fringe().end(),
-                           [&](const Hypothesis& leaf) { return holds(leaf.map); });
+      std::int64_t held = 0;
+      tree.for_each_map(
+          [&](const Hypothesis&, const TopologicalMap& map) { held += holds(map) ? 1 : 0; });
+      return held;
     };
     ExactSearchOptions options;
     options.planar = kept.planar;
     const MapCounts counts = enumerate(test::exploration_of(walk), options).counts;
     EXPECT_EQ(counts.tree_nodes, tree.node_count());
-    EXPECT_EQ(counts.final_maps, tree.fringe().size());
+    EXPECT_EQ(counts.final_maps, tree.live_count());
     EXPECT_EQ(counts.region_consistent_finals, count(is_region_consistent));
     EXPECT_EQ(counts.closed_paper,
               count([](const TopologicalMap& map) { return map.has_no_lone_path(); }));

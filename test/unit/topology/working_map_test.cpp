@@ -108,7 +108,7 @@ auto described(const WorkingMap& map) {
         is_pending ? map.previous_in_ring(at) : kNoGateway, map.view_class(at).value);
   }
   return std::tuple(places, gateways, map.path_count(), map.pending_count(), map.one_way_count(),
-                    map.component_count(), map.gateway_count());
+                    map.component_count(), map.end_gateway());
 }
 
 int recounted_components(const WorkingMap& map) {
