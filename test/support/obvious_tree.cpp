@@ -1,0 +1,221 @@
+#include "support/obvious_tree.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "star/isomorphism.hpp"
+
+namespace cairn::test {
+namespace {
+
+using Index = std::size_t;
+
+/// Two paths that share two places.
+bool has_double_meeting(const std::vector<std::set<int>>& paths) {
+  for (Index a = 0; a < paths.size(); ++a) {
+    for (Index b = a + 1; b < paths.size(); ++b) {
+      if (common(paths[a], paths[b]).size() >= 2) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Three paths that meet pairwise, but not at one place.
+bool has_triangle(const std::vector<std::set<int>>& paths) {
+  for (Index a = 0; a < paths.size(); ++a) {
+    for (Index b = a + 1; b < paths.size(); ++b) {
+      const std::set<int> ab = common(paths[a], paths[b]);
+      for (Index c = b + 1; c < paths.size() && !ab.empty(); ++c) {
+        if (!common(paths[a], paths[c]).empty() && !common(paths[b], paths[c]).empty() &&
+            common(ab, paths[c]).empty()) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+std::vector<ObviousGateway> pending_on_face(const ObviousMap& map, ObviousGateway pending) {
+  std::vector<ObviousGateway> found;
+  for (ObviousGateway at = clockwise_of(map, pending); at != pending;) {
+    if (is_pending(map, at)) {
+      found.push_back(at);
+    } else {
+      at = across(map, at);
+    }
+    at = clockwise_of(map, at);
+  }
+  return found;
+}
+
+std::vector<ObviousGateway> candidates(const ObviousMap& map, ObviousGateway from, bool planar) {
+  if (planar) {
+    return pending_on_face(map, from);
+  }
+  std::vector<ObviousGateway> pending;
+  for (const ObviousGateway at : all_gateways(map)) {
+    if (is_pending(map, at) && at != from) {
+      pending.push_back(at);
+    }
+  }
+  return pending;
+}
+
+bool looks_like(const ObviousMap& map, ObviousGateway at, const ExplorationStep& step) {
+  return are_alike(place_of(map, at.place).star, at.gateway, step.star, step.arrival_gateway);
+}
+
+void grow(const ObviousMap& leaf,
+          const ExplorationStep& step,
+          const ObviousTreeOptions& options,
+          ObviousTree* tree) {
+  const auto keep = [&](const ObviousMap& map, bool is_new_map) {
+    tree->nodes += 1;
+    tree->maps += is_new_map ? 1 : 0;
+    tree->leaves.push_back(map);
+  };
+  ObviousMap next = leaf;
+  const ObviousGateway from = departure_of(leaf, step.turn);
+  if (!is_pending(leaf, from)) {
+    next.robot = across(leaf, from);
+    if (looks_like(next, next.robot, step)) {
+      keep(next, false);
+    } else {
+      ++tree->view_mismatches;
+    }
+    return;
+  }
+  for (const ObviousGateway to : candidates(leaf, from, options.planar)) {
+    next = leaf;
+    link(&next, from, to);
+    if (looks_like(leaf, to, step) && !repeats_a_place(next, from) &&
+        (!options.region_consistent || is_region_consistent(next))) {
+      keep(next, true);
+    }
+  }
+  next = leaf;
+  add_place(&next, step.star);
+  link(&next, from, {static_cast<int>(next.places.size()) - 1, step.arrival_gateway});
+  if (!options.max_places || static_cast<int>(next.places.size()) <= *options.max_places) {
+    keep(next, true);
+  }
+}
+
+bool has_pending(const ObviousMap& map) {
+  const std::vector<ObviousGateway> all = all_gateways(map);
+  return std::any_of(all.begin(), all.end(),
+                     [&map](ObviousGateway at) { return is_pending(map, at); });
+}
+
+/// One map and what decides whether it is simple.
+struct Simple {
+  int paths = 0;
+  int places = 0;
+  bool has_triangle = false;
+  std::string code;
+};
+
+/// Those of the fewest paths, and of these of the fewest places.
+std::vector<Simple> simplest_of(const std::vector<Simple>& maps) {
+  const auto size = [](const Simple& map) { return std::pair(map.paths, map.places); };
+  std::vector<Simple> simplest;
+  for (const Simple& map : maps) {
+    if (!simplest.empty() && size(map) < size(simplest.front())) {
+      simplest.clear();
+    }
+    if (simplest.empty() || size(map) == size(simplest.front())) {
+      simplest.push_back(map);
+    }
+  }
+  std::sort(simplest.begin(), simplest.end(),
+            [](const Simple& a, const Simple& b) { return a.code < b.code; });
+  return simplest;
+}
+
+std::optional<SimplestMaps> optimal_of(const std::vector<Simple>& closed) {
+  const std::vector<Simple> simplest = simplest_of(closed);
+  if (simplest.empty()) {
+    return {};
+  }
+  SimplestMaps optimal;
+  optimal.count = static_cast<std::int64_t>(simplest.size());
+  optimal.paths = simplest.front().paths;
+  optimal.places = simplest.front().places;
+  for (const Simple& map : simplest) {
+    optimal.codes.push_back(map.code);
+  }
+  return optimal;
+}
+
+std::optional<MinimalRegionMaps> minimal_region_of(const std::vector<Simple>& maps) {
+  const std::vector<Simple> simplest = simplest_of(maps);
+  if (simplest.empty()) {
+    return {};
+  }
+  MinimalRegionMaps minimal;
+  minimal.count = static_cast<std::int64_t>(simplest.size());
+  minimal.paths = simplest.front().paths;
+  minimal.places = simplest.front().places;
+  for (const Simple& map : simplest) {
+    if (!map.has_triangle) {
+      minimal.codes.push_back(map.code);
+    }
+  }
+  minimal.count_without_triangles = static_cast<std::int64_t>(minimal.codes.size());
+  return minimal;
+}
+
+}  // namespace
+
+ObviousTree obvious_tree(const Exploration& exploration, const ObviousTreeOptions& options) {
+  ObviousTree tree;
+  tree.leaves.push_back(first_map(exploration));
+  for (const ExplorationStep& step : exploration.steps) {
+    const std::vector<ObviousMap> leaves = std::exchange(tree.leaves, {});
+    for (const ObviousMap& leaf : leaves) {
+      grow(leaf, step, options, &tree);
+    }
+    tree.leaves_per_step.push_back(static_cast<std::int64_t>(tree.leaves.size()));
+    tree.region_leaves_per_step.push_back(
+        std::count_if(tree.leaves.begin(), tree.leaves.end(), is_region_consistent));
+  }
+  return tree;
+}
+
+MapCounts counts_of(const ObviousTree& tree) {
+  MapCounts counts;
+  counts.tree_nodes = tree.nodes;
+  counts.maps_built = tree.maps;
+  counts.view_mismatches = tree.view_mismatches;
+  counts.leaves_per_step = tree.leaves_per_step;
+  counts.region_leaves_per_step = tree.region_leaves_per_step;
+  std::vector<Simple> consistent;
+  std::vector<Simple> closed;
+  for (const ObviousMap& map : tree.leaves) {
+    const std::vector<std::set<int>> paths = places_of_paths(map);
+    const bool is_closed_paper = std::all_of(paths.begin(), paths.end(),
+                                             [](const auto& places) { return places.size() > 1; });
+    ++counts.final_maps;
+    counts.closed_paper += is_closed_paper ? 1 : 0;
+    counts.closed_no_pending += has_pending(map) ? 0 : 1;
+    counts.perpendicular_closed_paper +=
+        is_closed_paper && !has_double_meeting(paths) && !has_triangle(paths) ? 1 : 0;
+    if (is_region_consistent(map)) {
+      ++counts.region_consistent_finals;
+      consistent.push_back({static_cast<int>(paths.size()), static_cast<int>(map.places.size()),
+                            has_triangle(paths), obvious_code(map)});
+      if (!has_pending(map)) {
+        closed.push_back(consistent.back());
+      }
+    }
+  }
+  counts.optimal = optimal_of(closed);
+  counts.minimal_region = minimal_region_of(consistent);
+  return counts;
+}
+
+}  // namespace cairn::test
