@@ -24,6 +24,7 @@ struct ObviousPlace {
 struct ObviousMap {
   std::vector<ObviousPlace> places;
   ObviousGateway robot;  ///< Its place, and the gateway it came in by.
+  int node = 0;          ///< Position in the history of its tree.
 };
 
 [[nodiscard]] const ObviousPlace& place_of(const ObviousMap& map, int place);

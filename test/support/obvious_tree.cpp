@@ -69,21 +69,27 @@ bool looks_like(const ObviousMap& map, ObviousGateway at, const ExplorationStep&
   return are_alike(place_of(map, at.place).star, at.gateway, step.star, step.arrival_gateway);
 }
 
+std::string text_of(ObviousGateway at) {
+  return std::to_string(at.place) + "." + std::to_string(at.gateway);
+}
+
 void grow(const ObviousMap& leaf,
           const ExplorationStep& step,
           const ObviousTreeOptions& options,
           ObviousTree* tree) {
-  const auto keep = [&](const ObviousMap& map, bool is_new_map) {
+  const auto keep = [&](const ObviousMap& map, bool is_new_map, const std::string& what) {
     tree->nodes += 1;
     tree->maps += is_new_map ? 1 : 0;
     tree->leaves.push_back(map);
+    tree->leaves.back().node = static_cast<int>(tree->history.size());
+    tree->history.push_back({leaf.node, what, false});
   };
   ObviousMap next = leaf;
   const ObviousGateway from = departure_of(leaf, step.turn);
   if (!is_pending(leaf, from)) {
     next.robot = across(leaf, from);
     if (looks_like(next, next.robot, step)) {
-      keep(next, false);
+      keep(next, false, "known " + std::to_string(next.robot.place));
     } else {
       ++tree->view_mismatches;
     }
@@ -94,14 +100,14 @@ void grow(const ObviousMap& leaf,
     link(&next, from, to);
     if (looks_like(leaf, to, step) && !repeats_a_place(next, from) &&
         (!options.region_consistent || is_region_consistent(next))) {
-      keep(next, true);
+      keep(next, true, text_of(from) + "-" + text_of(to));
     }
   }
   next = leaf;
   add_place(&next, step.star);
   link(&next, from, {static_cast<int>(next.places.size()) - 1, step.arrival_gateway});
   if (!options.max_places || static_cast<int>(next.places.size()) <= *options.max_places) {
-    keep(next, true);
+    keep(next, true, "new " + std::to_string(next.robot.place));
   }
 }
 
@@ -174,6 +180,7 @@ std::optional<MinimalRegionMaps> minimal_region_of(const std::vector<Simple>& ma
 ObviousTree obvious_tree(const Exploration& exploration, const ObviousTreeOptions& options) {
   ObviousTree tree;
   tree.leaves.push_back(first_map(exploration));
+  tree.history.push_back({-1, "start", false});
   for (const ExplorationStep& step : exploration.steps) {
     const std::vector<ObviousMap> leaves = std::exchange(tree.leaves, {});
     for (const ObviousMap& leaf : leaves) {
@@ -182,6 +189,9 @@ ObviousTree obvious_tree(const Exploration& exploration, const ObviousTreeOption
     tree.leaves_per_step.push_back(static_cast<std::int64_t>(tree.leaves.size()));
     tree.region_leaves_per_step.push_back(
         std::count_if(tree.leaves.begin(), tree.leaves.end(), is_region_consistent));
+  }
+  for (const ObviousMap& leaf : tree.leaves) {
+    tree.history[static_cast<Index>(leaf.node)].is_final = true;
   }
   return tree;
 }

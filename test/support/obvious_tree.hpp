@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "support/obvious_map.hpp"
@@ -19,8 +20,16 @@ struct ObviousTreeOptions {
   std::optional<int> max_places;
 };
 
+/// A node of the tree; parents come before their children.
+struct ObviousNode {
+  int parent = -1;
+  std::string what;  ///< "new 3", "known 1" (places), "0.2-3.1" (gateways of a closed loop).
+  bool is_final = false;
+};
+
 struct ObviousTree {
   std::vector<ObviousMap> leaves;
+  std::vector<ObviousNode> history;
   std::int64_t nodes = 1;
   std::int64_t maps = 1;
   std::int64_t view_mismatches = 0;
