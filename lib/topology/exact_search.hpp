@@ -65,6 +65,10 @@ struct BestMap {
 
 /// Options that exclude each other, out-of-range bounds, stars that an option cannot deal with.
 Status validate(const ExactSearchOptions& options, const Exploration& exploration);
+/// The same, and whether the order can be used with them.
+Status validate(const ExactSearchOptions& options,
+                const Exploration& exploration,
+                SearchOrder order);
 
 /// Rooted canonical code of a map and the robot's position: places numbered breadth-first from the
 /// robot's place, gateways clockwise from the one by which the place was met; each place is its
