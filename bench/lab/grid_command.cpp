@@ -19,6 +19,7 @@ using clients::ExitCode;
 using clients::Failure;
 
 constexpr int kMostRows = 100;
+constexpr std::size_t kMostDrawnPlaces = 1000;
 
 /// Two numbers with a sign between them, "3x4".
 std::pair<int, int> two_numbers(const std::string& option,
@@ -188,6 +189,11 @@ void write_map(const TopologyRequest& request, const GridExploration& grid, cons
     return;
   }
   const DrawnMap map = simplest_map(title_of(request, grid), grid, run);
+  if (map.places.size() > kMostDrawnPlaces) {
+    throw Failure(ExitCode::kBadData, "a map of " + std::to_string(map.places.size()) +
+                                          " places is too large for a picture (at most " +
+                                          std::to_string(kMostDrawnPlaces) + ")");
+  }
   if (!request.svg_file.empty()) {
     clients::write_file(request.svg_file, map_svg(map));
   }

@@ -1,5 +1,6 @@
 #include "bench/lab/map_files.hpp"
 
+#include <cmath>
 #include <sstream>
 
 #include "bench/lab/map_layout.hpp"

@@ -14,7 +14,7 @@ using clients::fixed;
 
 constexpr double kScale = 130.0;  // Pixels of a link.
 constexpr double kMargin = 70.0;
-constexpr double kHeader = 46.0;
+constexpr double kHeader = 58.0;
 constexpr double kRadius = 17.0;
 constexpr double kStub = 44.0;
 
@@ -68,9 +68,11 @@ class Drawing {
          << "\" height=\"" << fixed(height, 0) << "\" font-family=\"sans-serif\">\n"
          << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
          << label({14.0, 22.0}, "font-size=\"14\" font-weight=\"bold\"", map_.title)
-         << label({14.0, 40.0}, "font-size=\"11\" fill=\"#555\"",
-                  "circle: place, its number and type of star. Colour: path. Small numbers: "
-                  "gateways. Dashed: pending. Yellow: robot.");
+         << label(
+                {14.0, 40.0}, "font-size=\"11\" fill=\"#555\"",
+                "Circles: places with number and type of star. Small numbers: gateways, clockwise.")
+         << label({14.0, 55.0}, "font-size=\"11\" fill=\"#555\"",
+                  "Colours: paths. Dashed: pending. Yellow: the robot and its heading.");
     for (const DrawnLink& link : map_.links) {
       draw(link);
     }
@@ -106,11 +108,14 @@ class Drawing {
          << link.to_gateway << "</title></path>\n";
     const Pixel middle{(a.x + 3.0 * from.x + 3.0 * to.x + b.x) / 8.0,
                        (a.y + 3.0 * from.y + 3.0 * to.y + b.y) / 8.0};
-    out_ << label({middle.x, middle.y + 4.0},
-                  "font-size=\"11\" text-anchor=\"middle\" stroke=\"white\" stroke-width=\"4\" "
-                  "paint-order=\"stroke\" fill=\"" +
-                      colour(link.path) + "\"",
-                  "path " + std::to_string(link.path));
+    const std::string name = "path " + std::to_string(link.path);
+    const double width = 6.2 * static_cast<double>(name.size()) + 4.0;
+    out_ << "<rect x=\"" << fixed(middle.x - width / 2.0, 1) << "\" y=\""
+         << fixed(middle.y - 7.0, 1) << "\" width=\"" << fixed(width, 1)
+         << "\" height=\"14\" fill=\"white\"/>\n"
+         << label({middle.x, middle.y + 4.0},
+                  "font-size=\"11\" text-anchor=\"middle\" fill=\"" + colour(link.path) + "\"",
+                  name);
   }
 
   void draw_gateway(int place, int gateway) {

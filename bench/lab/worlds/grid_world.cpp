@@ -120,7 +120,7 @@ Result<Walk> walk_grid(const GridWorld& grid, int start, const std::string& move
                    name + " leaves the grid of " + std::to_string(grid.rows) + "x" +
                        std::to_string(grid.columns) + " from row " +
                        std::to_string(place / grid.columns) + ", column " +
-                       std::to_string(place % grid.columns)};
+                       std::to_string(place % grid.columns) + " (counted from 0)"};
     }
     departures.push_back(grid.gateways[static_cast<Index>(place)][heading]);
     place = next;

@@ -118,7 +118,7 @@ void invent_a_gateway(Seen* seen, RandomSource& random) {
 /// Gateways keep their order, and so their numbers.
 void misread(Seen* seen, RandomSource& random) {
   // There is one kind with one gateway, and few with many.
-  constexpr int kMostDraws = 200;
+  constexpr int kMostDraws = 2000;
   for (int draw = 0; draw < kMostDraws; ++draw) {
     const Star other = random_star(random);
     if (gateway_count(other) == gateway_count(seen->star) &&

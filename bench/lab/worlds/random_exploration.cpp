@@ -11,13 +11,20 @@ namespace cairn::lab {
 Walk random_exploration(std::uint64_t seed, std::int64_t most_nodes) {
   RandomSource random(seed, 3);
   RandomWorldOptions world_options;
-  world_options.places = 2 + random.below(13);
+  RandomWalkOptions walk_options;
   world_options.star_kinds = 1 + random.below(4);
   world_options.closing_probability = 0.2 + 0.7 * random.uniform();
-  RandomWalkOptions walk_options;
-  walk_options.travels = 4 + random.below(17);
   walk_options.turning_back_probability = random.chance(0.5) ? 0.1 : 0.0;
-  walk_options.exploring_probability = random.uniform();
+  if (random.chance(0.5)) {
+    // Small enough to be known completely in the end.
+    world_options.places = 1 + random.below(5);
+    walk_options.travels = 8 + random.below(17);
+    walk_options.exploring_probability = 1.0;
+  } else {
+    world_options.places = 4 + random.below(12);
+    walk_options.travels = 4 + random.below(17);
+    walk_options.exploring_probability = random.uniform();
+  }
   Walk walk = random_walk(random_world(world_options, seed), walk_options, seed);
 
   // A longer walk only makes a larger tree.
