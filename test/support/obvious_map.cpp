@@ -83,6 +83,18 @@ std::vector<Path> all_paths(const ObviousMap& map) {
   return paths;
 }
 
+/// Two paths that share two places.
+bool has_double_meeting(const std::vector<std::set<int>>& paths) {
+  for (Index a = 0; a < paths.size(); ++a) {
+    for (Index b = a + 1; b < paths.size(); ++b) {
+      if (common(paths[a], paths[b]).size() >= 2) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 /// Clockwise from the gateway at which the type name begins.
 int view_class_of(const Star& star, int gateway) {
   const int count = gateway_count(star);
@@ -158,6 +170,32 @@ std::vector<std::set<int>> places_of_paths(const ObviousMap& map) {
     places.push_back(places_on(path));
   }
   return places;
+}
+
+bool is_closed(const ObviousMap& map) {
+  const std::vector<ObviousGateway> all = all_gateways(map);
+  return std::none_of(all.begin(), all.end(),
+                      [&map](ObviousGateway at) { return is_pending(map, at); });
+}
+
+bool has_triangle(const ObviousMap& map) {
+  const std::vector<std::set<int>> paths = places_of_paths(map);
+  for (Index a = 0; a < paths.size(); ++a) {
+    for (Index b = a + 1; b < paths.size(); ++b) {
+      const std::set<int> ab = common(paths[a], paths[b]);
+      for (Index c = b + 1; c < paths.size() && !ab.empty(); ++c) {
+        if (!common(paths[a], paths[c]).empty() && !common(paths[b], paths[c]).empty() &&
+            common(ab, paths[c]).empty()) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+bool is_perpendicular(const ObviousMap& map) {
+  return !has_double_meeting(places_of_paths(map)) && !has_triangle(map);
 }
 
 bool repeats_a_place(const ObviousMap& map, ObviousGateway on_it) {

@@ -48,6 +48,11 @@ void link(ObviousMap* map, ObviousGateway a, ObviousGateway b);
 /// Whether the path through this gateway comes to a place twice.
 [[nodiscard]] bool repeats_a_place(const ObviousMap& map, ObviousGateway on_it);
 [[nodiscard]] bool is_region_consistent(const ObviousMap& map);
+/// No gateway is pending.
+[[nodiscard]] bool is_closed(const ObviousMap& map);
+/// No two paths share two places, and no three meet pairwise but not at one place.
+[[nodiscard]] bool is_perpendicular(const ObviousMap& map);
+[[nodiscard]] bool has_triangle(const ObviousMap& map);
 [[nodiscard]] std::set<int> common(const std::set<int>& a, const std::set<int>& b);
 
 /// The one map in which the visits (the start first) were at these places, and came in by these
@@ -63,5 +68,10 @@ void link(ObviousMap* map, ObviousGateway a, ObviousGateway b);
 [[nodiscard]] std::string obvious_code(const ObviousMap& map);
 
 [[nodiscard]] bool is_region_consistent(const ObviousMap& map);
+/// No gateway is pending.
+[[nodiscard]] bool is_closed(const ObviousMap& map);
+/// No two paths share two places, and no three meet pairwise but not at one place.
+[[nodiscard]] bool is_perpendicular(const ObviousMap& map);
+[[nodiscard]] bool has_triangle(const ObviousMap& map);
 
 }  // namespace cairn::test

@@ -11,34 +11,6 @@ namespace {
 
 using Index = std::size_t;
 
-/// Two paths that share two places.
-bool has_double_meeting(const std::vector<std::set<int>>& paths) {
-  for (Index a = 0; a < paths.size(); ++a) {
-    for (Index b = a + 1; b < paths.size(); ++b) {
-      if (common(paths[a], paths[b]).size() >= 2) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
-/// Three paths that meet pairwise, but not at one place.
-bool has_triangle(const std::vector<std::set<int>>& paths) {
-  for (Index a = 0; a < paths.size(); ++a) {
-    for (Index b = a + 1; b < paths.size(); ++b) {
-      const std::set<int> ab = common(paths[a], paths[b]);
-      for (Index c = b + 1; c < paths.size() && !ab.empty(); ++c) {
-        if (!common(paths[a], paths[c]).empty() && !common(paths[b], paths[c]).empty() &&
-            common(ab, paths[c]).empty()) {
-          return true;
-        }
-      }
-    }
-  }
-  return false;
-}
-
 std::vector<ObviousGateway> pending_on_face(const ObviousMap& map, ObviousGateway pending) {
   std::vector<ObviousGateway> found;
   for (ObviousGateway at = clockwise_of(map, pending); at != pending;) {
@@ -109,12 +81,6 @@ void grow(const ObviousMap& leaf,
   if (!options.max_places || static_cast<int>(next.places.size()) <= *options.max_places) {
     keep(next, true, "new " + std::to_string(next.robot.place));
   }
-}
-
-bool has_pending(const ObviousMap& map) {
-  const std::vector<ObviousGateway> all = all_gateways(map);
-  return std::any_of(all.begin(), all.end(),
-                     [&map](ObviousGateway at) { return is_pending(map, at); });
 }
 
 /// One map and what decides whether it is simple.
@@ -211,14 +177,13 @@ MapCounts counts_of(const ObviousTree& tree) {
                                              [](const auto& places) { return places.size() > 1; });
     ++counts.final_maps;
     counts.closed_paper += is_closed_paper ? 1 : 0;
-    counts.closed_no_pending += has_pending(map) ? 0 : 1;
-    counts.perpendicular_closed_paper +=
-        is_closed_paper && !has_double_meeting(paths) && !has_triangle(paths) ? 1 : 0;
+    counts.closed_no_pending += is_closed(map) ? 1 : 0;
+    counts.perpendicular_closed_paper += is_closed_paper && is_perpendicular(map) ? 1 : 0;
     if (is_region_consistent(map)) {
       ++counts.region_consistent_finals;
       consistent.push_back({static_cast<int>(paths.size()), static_cast<int>(map.places.size()),
-                            has_triangle(paths), obvious_code(map)});
-      if (!has_pending(map)) {
+                            has_triangle(map), obvious_code(map)});
+      if (is_closed(map)) {
         closed.push_back(consistent.back());
       }
     }
