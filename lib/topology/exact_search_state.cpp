@@ -69,8 +69,8 @@ void ExactSearchState::follow(const MapSummary& node,
   if ((options_.look_ahead && !look_ahead_.allows_follow(observed)) || !suits_bound(node, step)) {
     return;
   }
-  successors->push_back({{}, node});
-  successors->back().summary.arrival = arrival;
+  const MapChange change{MapChange::Kind::kNothing, {}, {}, departure, arrival};
+  successors->push_back({change, outline(node, change)});
 }
 
 void ExactSearchState::add_links(const MapSummary& node,
@@ -146,6 +146,8 @@ MapSummary ExactSearchState::outline(const MapSummary& node, const MapChange& ch
     summary.pending += facts.gateway_count - 2;
     summary.terminated_ends += facts.terminated_ends;
     summary.corners += facts.is_corner ? 1 : 0;
+  } else {
+    summary.arrival = map_.leads_to(change.departure);
   }
   return summary;
 }
