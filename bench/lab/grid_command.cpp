@@ -181,7 +181,8 @@ DrawnMap simplest_map(const std::string& title, const GridExploration& grid, con
     return drawn_map(counts.minimal_region->codes.front(), grid.walk.exploration,
                      title + ": a simplest map, not closed");
   }
-  throw Failure(ExitCode::kBadData, "no map to draw: none is closed, and the simplest region-consistent ones have "
+  throw Failure(ExitCode::kBadData,
+                "no map to draw: none is closed, and the simplest region-consistent ones have "
                 "triangles or are too many to keep");
 }
 

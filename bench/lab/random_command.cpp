@@ -4,6 +4,7 @@
 #include "bench/lab/counts.hpp"
 #include "bench/lab/resources.hpp"
 #include "bench/lab/topology_command.hpp"
+#include "bench/lab/truth.hpp"
 #include "bench/lab/worlds/random_exploration.hpp"
 #include "clients/common/progress.hpp"
 #include "clients/common/text.hpp"
@@ -31,14 +32,6 @@ bool is_among(const std::string& code, const std::vector<test::ObviousMap>& leav
   return std::any_of(leaves.begin(), leaves.end(), [&code](const test::ObviousMap& leaf) {
     return test::obvious_code(leaf) == code;
   });
-}
-
-std::string code_of_truth(const Walk& walk) {
-  std::vector<test::ObviousGateway> visits;
-  for (const TrueStep& step : truth_of(walk)) {
-    visits.push_back({step.place, step.gateway});
-  }
-  return test::obvious_code(test::obvious_map(walk.exploration, visits));
 }
 
 /// Whether the first closed map is one of those that complete enumeration finds simplest.

@@ -3,48 +3,36 @@
 // nothing.
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "bench/lab/counts.hpp"
+#include "bench/lab/truth.hpp"
 #include "bench/lab/vectors_file.hpp"
 #include "bench/lab/worlds/random_exploration.hpp"
 #include "support/obvious_tree.hpp"
 #include "support/recorded_data.hpp"
+#include "support/search_options.hpp"
 #include "topology/exact_search.hpp"
 
 namespace cairn::test {
 namespace {
 
+using lab::code_of_truth;
 using lab::differences;
 using lab::random_exploration;
 using lab::to_json;
 using lab::Walk;
 
-ExactSearchOptions all_codes(const ObviousTreeOptions& options) {
-  ExactSearchOptions search;
-  search.planar = options.planar;
-  search.region_consistent = options.region_consistent;
-  search.max_places = options.max_places;
-  search.max_codes = 1'000'000;
-  return search;
-}
-
 std::vector<std::string> differences_between(const Exploration& exploration,
                                              const ObviousTreeOptions& options) {
   const MapCounts counts = enumerate(exploration, all_codes(options)).counts;
   return differences(to_json(counts_of(obvious_tree(exploration, options))), to_json(counts));
-}
-
-std::string code_of_truth(const Walk& walk) {
-  std::vector<ObviousGateway> visits;
-  for (const lab::TrueStep& step : lab::truth_of(walk)) {
-    visits.push_back({step.place, step.gateway});
-  }
-  return obvious_code(obvious_map(walk.exploration, visits));
 }
 
 std::multiset<std::string> codes_of(const std::vector<ObviousMap>& leaves) {
@@ -156,7 +144,6 @@ TEST(Guarantee, LookAheadLosesNoClosedMap) {
   }
 }
 
-/// Those of the least places, and of these of the fewest paths, or the other way round.
 TEST(Guarantee, TheFirstClosedMapOfABestFirstSearchIsOneOfTheSimplest) {
   int closed = 0;
   for (unsigned seed = 0; seed < 500; ++seed) {
@@ -176,6 +163,28 @@ TEST(Guarantee, TheFirstClosedMapOfABestFirstSearchIsOneOfTheSimplest) {
     }
   }
   EXPECT_GT(closed, 100);
+}
+
+TEST(Guarantee, TheFirstClosedMapByPlacesHasTheFewestPlaces) {
+  for (unsigned seed = 0; seed < 500; ++seed) {
+    SCOPED_TRACE(seed);
+    const Walk walk = random_exploration(seed, 1000);
+    std::optional<std::pair<int, int>> least;
+    for (const ObviousMap& leaf : obvious_tree(walk.exploration, {true, false, {}}).leaves) {
+      const std::pair size(static_cast<int>(leaf.places.size()),
+                           static_cast<int>(places_of_paths(leaf).size()));
+      if (is_closed(leaf) && (!least || size < *least)) {
+        least = size;
+      }
+    }
+    const BestMap best =
+        find_best(walk.exploration, all_codes({true, false, {}}), SearchOrder::kPlaces);
+    ASSERT_EQ(best.map.has_value(), least.has_value());
+    if (best.map) {
+      EXPECT_EQ(std::pair(best.map->place_count(), best.map->path_count()), *least);
+      EXPECT_EQ(best.code, canonical_code(*best.map));
+    }
+  }
 }
 
 }  // namespace
