@@ -44,9 +44,7 @@ class Enumerator {
     return false;
   }
   [[nodiscard]] bool still_enters(const Successor& /*leaf*/) const { return true; }
-  [[nodiscard]] bool is_done() const {
-    return max_nodes_ > 0 && tally_.tree_nodes() >= max_nodes_;
-  }
+  [[nodiscard]] bool is_done() const { return max_nodes_ > 0 && tally_.tree_nodes() >= max_nodes_; }
 
  private:
   void add_codes(MapTally::WantedCodes wanted, const std::vector<MapChange>& changes) {

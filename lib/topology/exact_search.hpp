@@ -19,7 +19,8 @@ struct ExactSearchOptions {
   bool perpendicular = false;      ///< No two paths meet twice, no triangles: pruned early.
   std::optional<int> max_places;   ///< >= 1
   /// Skips maps in which more gateways of a kind are pending than the rest of the experience can
-  /// close. Loses only maps that end with pending gateways.
+  /// close. Loses only maps that end with pending gateways. With max_corners also maps that need
+  /// more corners than arrivals at corners are to come.
   bool look_ahead = false;
   /// Skips maps whose faces need more corners (places of type L) than max_corners allows. Needs
   /// planar and perpendicular; loses nothing that is closed.
@@ -40,7 +41,8 @@ struct Enumeration {
                                     const ExactSearchOptions& options);
 
 /// What best-first search takes first. All are bounds that never exceed the map's final value and
-/// are exact at closed maps, so that the first closed map is the least of its kind.
+/// are exact at closed maps, so that the first closed map is the least of its kind. With
+/// max_corners the first two include corners still needed as well.
 enum class SearchOrder {
   kPlaces,            ///< Places, then paths.
   kPaths,             ///< Paths (half of the terminated ends), then places.
@@ -49,7 +51,10 @@ enum class SearchOrder {
   kPathsWithCorners,  ///< Paths with corners still needed, then places. Planar and perpendicular.
 };
 
-/// The first closed map (no gateway pending) that a best-first search meets.
+/// The first closed map (no gateway pending) that a best-first search meets. Among equal bounds the
+/// search takes the deepest first. Where the experience is long (over 256 travels), look_ahead is
+/// on and the order counts corners, it deepens iteratively on the first part of the order instead,
+/// which stores no nodes and gives the same guarantee.
 struct BestMap {
   std::optional<TopologicalMap> map;
   std::string code;

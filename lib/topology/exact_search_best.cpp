@@ -13,9 +13,19 @@
 namespace cairn {
 namespace {
 
-/// Best-first search takes a walk through the tree from one node to the next, iterative deepening
-/// looks at nodes again and again. Beyond this many travels the walks cost more.
-constexpr int kMostStepsBestFirst = 256;
+/// Best-first search walks through the tree from one node to the next: up to two times the length
+/// of the experience for each. Iterative deepening has no such walks, but looks at nodes again, and
+/// at every map within a bound on the first part of the cost. So it pays for long experiences, if
+/// that part hardly grows (orders that count corners) and few maps lie within it (look_ahead).
+constexpr int kLongExperience = 256;
+
+bool suits_iterative_deepening(const ObservedWalk& walk,
+                               const ExactSearchOptions& options,
+                               SearchOrder order) {
+  const bool counts_corners =
+      order == SearchOrder::kCorners || order == SearchOrder::kPathsWithCorners;
+  return walk.step_count() > kLongExperience && options.look_ahead && counts_corners;
+}
 
 constexpr std::int64_t kMostNodes = std::numeric_limits<std::int32_t>::max();
 
@@ -228,7 +238,7 @@ BestMap find_best(const Exploration& exploration,
                   const ExactSearchOptions& options,
                   SearchOrder order) {
   const ObservedWalk walk(exploration);
-  if (walk.step_count() > kMostStepsBestFirst) {
+  if (suits_iterative_deepening(walk, options, order)) {
     return IterativeDeepening(walk, options, order).run();
   }
   return BestFirst(walk, options, order).run();

@@ -15,17 +15,17 @@ struct SearchCost {
   friend auto operator<=>(const SearchCost&, const SearchCost&) = default;
 };
 
-/// Terminated ends stand for paths: a closed map has half as many paths. Corners still needed count
-/// as places, and as two terminated ends each, where CornerBound is in use.
+/// Terminated ends stand for paths: a closed map has half as many. Corners still needed count as
+/// places, and as a path each, where CornerBound is in use.
 [[nodiscard]] inline SearchCost cost_of(const MapSummary& map, SearchOrder order) {
   const std::int32_t places = map.places + map.corners_needed;
-  const std::int32_t ends = map.terminated_ends + 2 * map.corners_needed;
+  const std::int32_t paths = (map.terminated_ends + 1) / 2 + map.corners_needed;
   switch (order) {
     case SearchOrder::kPlaces:
-      return {places, ends};
+      return {places, paths};
     case SearchOrder::kPaths:
     case SearchOrder::kPathsWithCorners:
-      return {ends, places};
+      return {paths, places};
     case SearchOrder::kCorners:
       break;
   }
