@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "bench/lab/codes.hpp"
-#include "bench/lab/search.hpp"
+#include "bench/lab/text.hpp"
 
 namespace cairn::lab {
 namespace {
@@ -73,16 +73,6 @@ void print_line(std::ostream& out, std::string name, const std::string& value) {
   out << "  " << name << value << '\n';
 }
 
-void print_series(std::ostream& out,
-                  const std::string& name,
-                  const std::vector<std::int64_t>& series) {
-  std::string text;
-  for (const std::int64_t leaves : series) {
-    text += (text.empty() ? "" : " ") + std::to_string(leaves);
-  }
-  print_line(out, name, text);
-}
-
 }  // namespace
 
 Json to_json(const MapCounts& counts, const ViewNames& names) {
@@ -129,8 +119,8 @@ void print_counts(const MapCounts& counts, std::ostream& out) {
                simplest_text(minimal.count, minimal.paths, minimal.places) + ", " +
                    grouped(minimal.count_without_triangles) + " without triangles");
   }
-  print_series(out, "maps after each travel", counts.leaves_per_step);
-  print_series(out, "  region-consistent", counts.region_leaves_per_step);
+  print_line(out, "maps after each travel", joined(counts.leaves_per_step));
+  print_line(out, "  region-consistent", joined(counts.region_leaves_per_step));
 }
 
 }  // namespace cairn::lab

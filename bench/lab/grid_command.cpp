@@ -6,6 +6,7 @@
 #include "bench/lab/counts.hpp"
 #include "bench/lab/map_files.hpp"
 #include "bench/lab/resources.hpp"
+#include "bench/lab/text.hpp"
 #include "bench/lab/topology_command.hpp"
 #include "bench/lab/tree_nodes.hpp"
 #include "bench/lab/worlds/world.hpp"
@@ -136,6 +137,12 @@ Json json_of(const TopologyRequest& request, const GridExploration& grid, const 
   return json;
 }
 
+/// Codes of large maps fill screens.
+std::string shortened(const std::string& code) {
+  constexpr std::size_t kMost = 160;
+  return code.size() <= kMost ? code : code.substr(0, kMost) + "... (all of it with --json)";
+}
+
 void print_best(const SearchRun& run, std::ostream& out) {
   if (!run.counts.optimal) {
     out << "  no map without pending gateways was found\n";
@@ -143,7 +150,7 @@ void print_best(const SearchRun& run, std::ostream& out) {
     out << "  first closed map: " << run.counts.optimal->paths << " paths, "
         << run.counts.optimal->places << " places; "
         << (run.is_proven ? "none is better" : "a better one is not excluded") << "\n  "
-        << run.best_code << '\n';
+        << shortened(run.best_code) << '\n';
   }
   out << "  " << grouped(run.counts.tree_nodes) << " nodes made, " << grouped(run.counts.maps_built)
       << " maps built, at most " << grouped(run.max_open) << " waiting\n";

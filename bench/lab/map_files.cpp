@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "bench/lab/map_layout.hpp"
+#include "bench/lab/text.hpp"
 #include "clients/common/text.hpp"
 
 namespace cairn::lab {
@@ -19,13 +20,13 @@ std::string dot_colour(int path) {
 }
 
 std::string pending_text(const DrawnPlace& place) {
-  std::string text;
+  std::vector<std::size_t> pending;
   for (Index gateway = 0; gateway < place.is_pending.size(); ++gateway) {
     if (place.is_pending[gateway]) {
-      text += (text.empty() ? "" : " ") + std::to_string(gateway);
+      pending.push_back(gateway);
     }
   }
-  return text;
+  return joined(pending);
 }
 
 std::string datum(const char* key, const std::string& value) {

@@ -3,6 +3,7 @@
 
 #include "bench/lab/counts.hpp"
 #include "bench/lab/resources.hpp"
+#include "bench/lab/text.hpp"
 #include "bench/lab/topology_command.hpp"
 #include "bench/lab/truth.hpp"
 #include "bench/lab/worlds/random_exploration.hpp"

@@ -6,6 +6,7 @@
 
 #include "bench/lab/resources.hpp"
 #include "bench/lab/run_breadth.hpp"
+#include "bench/lab/text.hpp"
 #include "clients/common/text.hpp"
 
 namespace cairn::lab {
@@ -60,15 +61,6 @@ SearchRun run_search(SearchKind kind,
   }
   run.cpu_s = cpu_time_s() - start_s;
   return run;
-}
-
-std::string grouped(std::int64_t number) {
-  std::string digits = std::to_string(number);
-  const std::size_t sign = number < 0 ? 1 : 0;
-  for (std::size_t end = digits.size(); end > sign + 3; end -= 3) {
-    digits.insert(end - 3, ",");
-  }
-  return digits;
 }
 
 std::string cost_text(const SearchRun& run) {

@@ -36,7 +36,4 @@ struct SearchRun {
 /// "240 nodes in 0.31 ms of CPU time (774,000 nodes/s)" and what is known of memory.
 [[nodiscard]] std::string cost_text(const SearchRun& run);
 
-/// 1234567 as "1,234,567".
-[[nodiscard]] std::string grouped(std::int64_t number);
-
 }  // namespace cairn::lab

@@ -1,6 +1,7 @@
 #include <ostream>
 
 #include "bench/lab/counts.hpp"
+#include "bench/lab/text.hpp"
 #include "bench/lab/topology_command.hpp"
 #include "bench/lab/vectors_file.hpp"
 #include "clients/common/progress.hpp"
