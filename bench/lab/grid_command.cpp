@@ -112,6 +112,7 @@ std::string title_of(const TopologyRequest& request, const GridExploration& grid
 
 Json json_of(const TopologyRequest& request, const GridExploration& grid, const SearchRun& run) {
   Json json = {{"grid", request.grid},
+               {"title", title_of(request, grid)},
                {"moves", grid.moves},
                {"mode", request.search.planar ? "planar" : "nonplanar"},
                {"search", name_of(request.kind)}};
@@ -130,8 +131,8 @@ Json json_of(const TopologyRequest& request, const GridExploration& grid, const 
     json.update(to_json(run.counts));
   }
   json["is_complete"] = run.is_complete;
-  json["cpu_ms"] = 1000.0 * run.cpu_s;
-  json["nodes_per_s"] = static_cast<double>(run.counts.tree_nodes) / std::max(run.cpu_s, 1e-9);
+  json["cpu_ms"] = milliseconds(run.cpu_s);
+  json["nodes_per_s"] = nodes_per_s(run);
   json["bytes_per_stored_node"] = run.bytes_per_node == 0 ? Json() : Json(run.bytes_per_node);
   json["peak_resident_bytes"] = peak_resident_bytes();
   return json;

@@ -96,8 +96,8 @@ Json json_of(const Totals& totals) {
           {"tree_nodes", totals.tree_nodes},
           {"final_maps", totals.final_maps},
           {"most_final_maps", totals.most_final_maps},
-          {"cpu_ms", 1000.0 * totals.cpu_s},
-          {"obvious_cpu_ms", 1000.0 * totals.obvious_cpu_s},
+          {"cpu_ms", milliseconds(totals.cpu_s)},
+          {"obvious_cpu_ms", milliseconds(totals.obvious_cpu_s)},
           {"complaints", totals.complaints}};
 }
 

@@ -63,9 +63,16 @@ SearchRun run_search(SearchKind kind,
   return run;
 }
 
+std::int64_t nodes_per_s(const SearchRun& run) {
+  return std::llround(static_cast<double>(run.counts.tree_nodes) / std::max(run.cpu_s, 1e-9));
+}
+
+double milliseconds(double seconds) {
+  return std::round(1e6 * seconds) / 1e3;
+}
+
 std::string cost_text(const SearchRun& run) {
-  const double rate = static_cast<double>(run.counts.tree_nodes) / std::max(run.cpu_s, 1e-9);
-  const auto rounded = static_cast<std::int64_t>(std::lround(rate / 1000.0)) * 1000;
+  const std::int64_t rounded = (nodes_per_s(run) + 500) / 1000 * 1000;
   std::string text = grouped(run.counts.tree_nodes) + " nodes in " +
                      clients::fixed(1000.0 * run.cpu_s, run.cpu_s < 0.1 ? 2 : 0) +
                      " ms of CPU time (" + grouped(rounded) + " nodes/s), ";

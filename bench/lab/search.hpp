@@ -33,6 +33,11 @@ struct SearchRun {
                                    const ExactSearchOptions& options,
                                    SearchOrder order);
 
+[[nodiscard]] std::int64_t nodes_per_s(const SearchRun& run);
+
+/// With three decimals, for JSON.
+[[nodiscard]] double milliseconds(double seconds);
+
 /// "240 nodes in 0.31 ms of CPU time (774,000 nodes/s)" and what is known of memory.
 [[nodiscard]] std::string cost_text(const SearchRun& run);
 

@@ -27,6 +27,29 @@ const std::vector<std::pair<std::string, SearchOrder>> kOrders = {
     {"paths-corners", SearchOrder::kPathsWithCorners},
 };
 
+/// One of a few names.
+template <typename Value>
+CLI::Option* add_choice(CLI::App& command,
+                        const std::string& name,
+                        const std::vector<std::pair<std::string, Value>>& choices,
+                        Value* chosen,
+                        const std::string& help) {
+  std::string names;
+  for (const auto& [choice, value] : choices) {
+    names += names.empty() ? choice : "|" + choice;
+  }
+  const auto choose = [name, names, choices, chosen](const std::string& text) {
+    for (const auto& [choice, value] : choices) {
+      if (choice == text) {
+        *chosen = value;
+        return;
+      }
+    }
+    throw CLI::ValidationError(name, "expected one of " + names + ", got " + text);
+  };
+  return command.add_option_function<std::string>(name, choose, help)->type_name(names);
+}
+
 /// Options that only make sense with --grid.
 struct GridOptions {
   std::vector<CLI::Option*> options;
@@ -66,18 +89,14 @@ void add_sources(CLI::App& command, TopologyRequest* request, GridOptions* grid)
 void add_search(CLI::App& command, TopologyRequest* request, GridOptions* grid) {
   ExactSearchOptions& search = request->search;
   command.add_flag("--planar", search.planar, "Links must lie within a face");
-  command
-      .add_option("--search", request->kind,
-                  "breadth: step by step, all leaves kept, as the daemon does it; depth: all maps, "
-                  "none kept; best: the most promising first, until a map is closed")
-      ->transform(CLI::Transformer(kKinds))
-      ->type_name("breadth|depth|best")
+  add_choice(command, "--search", kKinds, &request->kind,
+             "breadth: step by step, all leaves kept, as the daemon does it; depth: all maps, none "
+             "kept; best: the most promising first, until a map is closed")
       ->default_str("depth");
-  grid->order =
-      command.add_option("--order", request->order, "What best-first search takes for promising")
-          ->transform(CLI::Transformer(kOrders))
-          ->type_name("places|paths|corners|paths-corners")
-          ->default_str("paths");
+  grid->order = add_choice(command, "--order", kOrders, &request->order,
+                           "What best-first search takes for promising; those with corners need "
+                           "--planar --perpendicular")
+                    ->default_str("paths");
   grid->options.insert(
       grid->options.end(),
       {grid->order,
@@ -124,6 +143,12 @@ void check_use(const TopologyRequest& request, const GridOptions& grid) {
   }
   if (grid.order->count() > 0 && request.kind != SearchKind::kBest) {
     throw Failure(ExitCode::kUsage, "--order needs --search best");
+  }
+  const bool counts_corners =
+      request.order == SearchOrder::kCorners || request.order == SearchOrder::kPathsWithCorners;
+  if (counts_corners && !(request.search.planar && request.search.perpendicular)) {
+    throw Failure(ExitCode::kUsage,
+                  "--order: an order with corners needs --planar and --perpendicular");
   }
   if (request.grid.empty() && request.kind == SearchKind::kBest) {
     throw Failure(ExitCode::kUsage, "--search best needs --grid: it does not count all maps");

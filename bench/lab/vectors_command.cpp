@@ -68,8 +68,9 @@ class Outcome {
     out << agreeing_ << " of " << total_ << " agree; " << summary() << '\n';
   }
   [[nodiscard]] Json json(Json vectors) const {
-    return {{"vectors", std::move(vectors)}, {"agreeing", agreeing_},     {"compared", total_},
-            {"tree_nodes", nodes_},          {"cpu_ms", 1000.0 * cpu_s_}, {"agrees", agrees()}};
+    return {
+        {"vectors", std::move(vectors)}, {"agreeing", agreeing_},          {"compared", total_},
+        {"tree_nodes", nodes_},          {"cpu_ms", milliseconds(cpu_s_)}, {"agrees", agrees()}};
   }
 
  private:

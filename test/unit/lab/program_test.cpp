@@ -241,6 +241,8 @@ TEST(LabTopology, RejectsWrongCommandLines) {
       {"topology", "--grid", "3x3", "--search", "widest"},
       {"topology", "--grid", "3x3", "--order", "paths"},
       {"topology", "--grid", "3x3", "--search", "best", "--order", "shortest"},
+      {"topology", "--grid", "3x3", "--search", "1"},
+      {"topology", "--grid", "3x3", "--search", "best", "--order", "corners"},
       {"topology", "--grid", "3x3", "--max-places", "0"},
       {"topology", "--grid", "3x3", "--max-corners", "4"},
       {"topology", "--grid", "3x3", "--random", "1"},
