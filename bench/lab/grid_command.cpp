@@ -174,31 +174,39 @@ void print(const TopologyRequest& request,
   out << "  " << cost_text(run) << '\n';
 }
 
-/// The map that is drawn: the simplest closed one, or else the simplest one.
-DrawnMap simplest_map(const std::string& title, const GridExploration& grid, const SearchRun& run) {
-  const MapCounts& counts = run.counts;
-  if (counts.optimal && !counts.optimal->codes.empty()) {
-    const std::string of =
-        counts.optimal->count == 1
-            ? "the simplest closed map"
-            : "one of the " + std::to_string(counts.optimal->count) + " simplest closed maps";
-    return drawn_map(counts.optimal->codes.front(), grid.walk.exploration,
-                     title + ": " + (run.is_best_first ? "the closed map found first" : of));
+/// The map that is drawn: the simplest closed one, or else the simplest one that is not folded.
+DrawnMap simplest_map(const TopologyRequest& request,
+                      const GridExploration& grid,
+                      const SearchRun& run) {
+  const std::string title = title_of(request, grid) + ": ";
+  const Exploration& exploration = grid.walk.exploration;
+  if (run.counts.optimal && !run.counts.optimal->codes.empty()) {
+    const std::int64_t count = run.counts.optimal->count;
+    const std::string which = count == 1 ? "the simplest closed map"
+                                         : "one of the " + grouped(count) + " simplest closed maps";
+    return drawn_map(run.counts.optimal->codes.front(), exploration,
+                     title + (run.is_best_first ? "the closed map found first" : which));
   }
-  if (counts.minimal_region && !counts.minimal_region->codes.empty()) {
-    return drawn_map(counts.minimal_region->codes.front(), grid.walk.exploration,
-                     title + ": a simplest map, not closed");
+  if (run.is_best_first) {
+    throw Failure(ExitCode::kBadData, "no map to draw: none that is closed was found");
   }
-  throw Failure(ExitCode::kBadData,
-                "no map to draw: none is closed, and the simplest region-consistent ones have "
-                "triangles or are too many to keep");
+  // Of unfinished walks the simplest maps of all explain much by few places in a triangle.
+  ExactSearchOptions options = request.search;
+  options.perpendicular = true;
+  const MapCounts counts = enumerate(exploration, options).counts;
+  if (!counts.minimal_region || counts.minimal_region->codes.empty()) {
+    throw Failure(ExitCode::kBadData,
+                  "no map to draw: there is none that is closed or perpendicular");
+  }
+  return drawn_map(counts.minimal_region->codes.front(), exploration,
+                   title + "a simplest perpendicular map; none is closed");
 }
 
 void write_map(const TopologyRequest& request, const GridExploration& grid, const SearchRun& run) {
   if (request.svg_file.empty() && request.dot_file.empty() && request.graphml_file.empty()) {
     return;
   }
-  const DrawnMap map = simplest_map(title_of(request, grid), grid, run);
+  const DrawnMap map = simplest_map(request, grid, run);
   if (map.places.size() > kMostDrawnPlaces) {
     throw Failure(ExitCode::kBadData, "a map of " + std::to_string(map.places.size()) +
                                           " places is too large for a picture (at most " +

@@ -60,7 +60,7 @@ class Drawing {
   }
 
   std::string svg() {
-    const double wanted = 7.2 * static_cast<double>(map_.title.size()) + 30.0;
+    const double wanted = 8.7 * static_cast<double>(map_.title.size()) + 30.0;
     const double width = std::max({kScale * (right_ - left_) + 2.0 * kMargin, wanted, 560.0});
     const double height = kScale * (bottom_ - top_) + 2.0 * kMargin + kHeader;
     shift_ = (width - kScale * (right_ - left_)) / 2.0;

@@ -115,6 +115,17 @@ TEST(LabTopology, WritesItsDrawings) {
   EXPECT_THAT(test::content_of(folder / "tree-dot"), HasSubstr("digraph tree"));
 }
 
+TEST(LabTopology, DrawsAMapOfAWalkThatIsNotFinished) {
+  const TemporaryFolder folder;
+  const std::string path = (folder / "map.svg").string();
+  const Ran ran = run({"topology", "--grid", "3x3", "--walk", "EESWWN", "--svg", path});
+  ASSERT_EQ(ran.status, 0) << ran.errors;
+  EXPECT_THAT(test::content_of(path), HasSubstr("a simplest perpendicular map; none is closed"));
+  EXPECT_EQ(
+      run({"topology", "--grid", "3x3", "--walk", "E", "--search", "best", "--svg", path}).status,
+      65);
+}
+
 TEST(LabTopology, DrawsNoTreeThatNobodyCanRead) {
   const TemporaryFolder folder;
   const std::string path = (folder / "tree.dot").string();
