@@ -1,0 +1,286 @@
+#include "topology/exact_search.hpp"
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include <gmock/gmock.h>
+
+#include "support/explorations.hpp"
+#include "support/stars.hpp"
+#include "topology/hypothesis_tree.hpp"
+#include "topology/regions.hpp"
+
+namespace cairn {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// A random walk through a grid some of whose streets are missing.
+test::Walk random_walk(unsigned seed, int rows, int columns, int steps) {
+  std::mt19937 random(seed);
+  test::Lattice lattice(rows, columns);
+  for (int tries = 0; tries < 2; ++tries) {
+    const int place = static_cast<int>(random() % static_cast<unsigned>(rows * columns));
+    const int direction = static_cast<int>(random() % 4);
+    if (lattice.is_open(place, direction) && lattice.degree(place) > 2 &&
+        lattice.degree(lattice.neighbour(place, direction)) > 2) {
+      lattice.remove_street(place, direction);
+    }
+  }
+  return lattice.walk(0, lattice.random_moves(0, steps, random));
+}
+
+ExactSearchOptions planar(bool perpendicular = false) {
+  ExactSearchOptions options;
+  options.planar = true;
+  options.perpendicular = perpendicular;
+  return options;
+}
+
+/// Enough corners for any map of the exploration.
+int any_corners(const Exploration& exploration) {
+  return static_cast<int>(exploration.steps.size()) + 1;
+}
+
+Exploration back_and_forth(int travels) {
+  const ExplorationStep step{0, test::dead_end(), 0};
+  return {test::dead_end(), 0,
+          std::vector<ExplorationStep>(static_cast<std::size_t>(travels), step)};
+}
+
+TEST(Exploration, WhatIsImpossibleIsNamedWithItsStep) {
+  Exploration exploration = test::snake(2, 2);
+  EXPECT_TRUE(validate(exploration).ok());
+  exploration.steps[2].turn = 2;
+  EXPECT_THAT(validate(exploration).error().message, HasSubstr("step 2: turn must be in [0, 1]"));
+  exploration = test::snake(2, 2);
+  exploration.steps[1].arrival_gateway = -1;
+  EXPECT_THAT(validate(exploration).error().message, HasSubstr("step 1: arrival_gateway"));
+  exploration.steps[0].star.slots[0].partner = 9;
+  EXPECT_THAT(validate(exploration).error().message, HasSubstr("step 0"));
+  exploration.start_gateway = 7;
+  EXPECT_THAT(validate(exploration).error().message, HasSubstr("start: start_gateway"));
+  exploration.start.slots.clear();
+  EXPECT_FALSE(validate(exploration).ok());
+}
+
+TEST(ExactSearchOptions, WhatDoesNotSuitTheExplorationIsRefused) {
+  const Exploration grid = test::snake(2, 3);
+  const auto refuses = [](const ExactSearchOptions& options, const Exploration& exploration) {
+    return !validate(options, exploration).ok();
+  };
+  ExactSearchOptions options;
+  EXPECT_FALSE(refuses(options, grid));
+  options.max_corners = 4;
+  EXPECT_TRUE(refuses(options, grid));
+  options.planar = options.perpendicular = true;
+  EXPECT_FALSE(refuses(options, grid));
+  EXPECT_TRUE(refuses(options, back_and_forth(2)));
+  EXPECT_FALSE(validate(planar(true), back_and_forth(2), SearchOrder::kCorners).ok());
+  EXPECT_FALSE(validate({}, grid, SearchOrder::kPathsWithCorners).ok());
+  EXPECT_TRUE(validate(planar(true), grid, SearchOrder::kPathsWithCorners).ok());
+  ExactSearchOptions compass;
+  compass.compass = true;
+  EXPECT_TRUE(refuses(compass, back_and_forth(2)));
+  ExactSearchOptions none;
+  none.max_places = 0;
+  EXPECT_TRUE(refuses(none, grid));
+}
+
+// The tree keeps its leaves as maps and asks each of them; the search carries everything along.
+TEST(Enumeration, AgreesWithATreeThatKeepsItsLeaves) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const test::Walk walk = random_walk(seed, 3, 3, 13);
+    TopologyOptions kept;
+    kept.planar = seed % 2 == 0;
+    kept.max_hypotheses = 1'000'000;
+    HypothesisTree tree(kept);
+    tree.start(walk.start);
+    for (const test::Experienced& step : walk.steps) {
+      static_cast<void>(tree.extend(step.action, step.view));
+    }
+    const auto count = [&](auto holds) {
+      return std::count_if(tree.fringe().begin(), tree.fringe().end(),
+                           [&](const Hypothesis& leaf) { return holds(leaf.map); });
+    };
+    ExactSearchOptions options;
+    options.planar = kept.planar;
+    const MapCounts counts = enumerate(test::exploration_of(walk), options).counts;
+    EXPECT_EQ(counts.tree_nodes, tree.node_count());
+    EXPECT_EQ(counts.final_maps, tree.fringe().size());
+    EXPECT_EQ(counts.region_consistent_finals, count(is_region_consistent));
+    EXPECT_EQ(counts.closed_paper,
+              count([](const TopologicalMap& map) { return map.has_no_lone_path(); }));
+    EXPECT_EQ(counts.perpendicular_closed_paper, count([](const TopologicalMap& map) {
+                return map.has_no_lone_path() && is_perpendicular(map);
+              }));
+  }
+}
+
+TEST(Enumeration, NoTwoMapsAreTheSame) {
+  ExactSearchOptions options;
+  options.max_codes = 100'000;
+  const MapCounts counts = enumerate(test::snake(3, 5), options).counts;
+  ASSERT_EQ(counts.optimal->count, 48);
+  const std::set<std::string> codes(counts.optimal->codes.begin(), counts.optimal->codes.end());
+  EXPECT_EQ(codes.size(), 48U);
+}
+
+TEST(Enumeration, MoreCodesThanAskedForAreNotKept) {
+  ExactSearchOptions options;
+  options.max_codes = 47;
+  EXPECT_THAT(enumerate(test::snake(3, 5), options).counts.optimal->codes, IsEmpty());
+}
+
+// What prunes in view of the end, and the bound on corners, lose nothing that is closed.
+TEST(Enumeration, PruningInViewOfTheEndLosesNoClosedMap) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const Exploration exploration = seed < 3 ? test::snake(3, 2 + static_cast<int>(seed))
+                                             : test::exploration_of(random_walk(seed, 2, 3, 14));
+    for (const bool perpendicular : {false, true}) {
+      ExactSearchOptions options = planar(perpendicular);
+      const MapCounts all = enumerate(exploration, options).counts;
+      options.look_ahead = true;
+      const MapCounts pruned = enumerate(exploration, options).counts;
+      EXPECT_EQ(pruned.closed_no_pending, all.closed_no_pending);
+      EXPECT_LE(pruned.tree_nodes, all.tree_nodes);
+      options.max_corners = any_corners(exploration);
+      if (validate(options, exploration).ok()) {
+        EXPECT_EQ(enumerate(exploration, options).counts.closed_no_pending, all.closed_no_pending);
+      }
+    }
+  }
+}
+
+TEST(Enumeration, AtMostFourCornersAndACompassLeaveTheGridItself) {
+  ExactSearchOptions options = planar(true);
+  options.look_ahead = options.compass = true;
+  options.max_corners = 4;
+  for (const int size : {4, 5, 6, 8, 10}) {
+    SCOPED_TRACE(size);
+    const MapCounts counts = enumerate(test::snake(size, size), options).counts;
+    EXPECT_EQ(counts.closed_no_pending, 1);
+    EXPECT_EQ(counts.optimal->places, size * size);
+    EXPECT_EQ(counts.optimal->paths, 2 * size);
+  }
+}
+
+TEST(Enumeration, ASearchThatIsCutOffSaysSo) {
+  ExactSearchOptions options;
+  options.max_nodes = 1000;
+  const Enumeration found = enumerate(test::snake(4, 4), options);
+  EXPECT_FALSE(found.is_complete);
+  EXPECT_LT(found.counts.tree_nodes, 1100);
+}
+
+TEST(Enumeration, ALongExperienceDoesNotExhaustTheStack) {
+  const Enumeration found = enumerate(back_and_forth(200'000), {});
+  EXPECT_EQ(found.counts.final_maps, 1);
+  EXPECT_EQ(found.counts.tree_nodes, 200'001);
+}
+
+TEST(Enumeration, WithoutTravelsTheStartIsTheOnlyMap) {
+  const MapCounts counts = enumerate({test::crossing(), 0, {}}, {}).counts;
+  EXPECT_EQ(counts.tree_nodes, 1);
+  EXPECT_EQ(counts.final_maps, 1);
+  EXPECT_EQ(counts.closed_no_pending, 0);
+  EXPECT_EQ(counts.minimal_region->paths, 2);
+}
+
+// The least map by enumeration, against the first one by each order.
+TEST(BestMap, IsTheLeastOfItsOrder) {
+  int closed = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const Exploration exploration = seed < 3 ? test::snake(3, 2 + static_cast<int>(seed))
+                                             : test::exploration_of(random_walk(seed, 2, 3, 16));
+    ExactSearchOptions options = planar();
+    options.region_consistent = true;
+    const MapCounts all = enumerate(exploration, options).counts;
+    const BestMap fewest_paths = find_best(exploration, options, SearchOrder::kPaths);
+    EXPECT_TRUE(fewest_paths.is_proven);
+    ASSERT_EQ(fewest_paths.map.has_value(), all.optimal.has_value());
+    if (!all.optimal) {
+      continue;
+    }
+    ++closed;
+    EXPECT_EQ(fewest_paths.map->path_count(), all.optimal->paths);
+    EXPECT_EQ(fewest_paths.map->place_count(), all.optimal->places);
+    EXPECT_THAT(all.optimal->codes, ::testing::Contains(fewest_paths.code));
+    const BestMap fewest_places = find_best(exploration, options, SearchOrder::kPlaces);
+    options.max_places = fewest_places.map->place_count();
+    EXPECT_GT(enumerate(exploration, options).counts.closed_no_pending, 0);
+    options.max_places = *options.max_places - 1;
+    EXPECT_EQ(enumerate(exploration, options).counts.closed_no_pending, 0);
+  }
+  EXPECT_GT(closed, 5);
+}
+
+TEST(BestMap, OrdersThatCountCornersFindTheGrid) {
+  for (const int size : {3, 4, 5, 7}) {
+    const Exploration grid = test::snake(size, size);
+    const BestMap best = find_best(grid, planar(true), SearchOrder::kCorners);
+    EXPECT_EQ(best.map->place_count(), size * size);
+    EXPECT_TRUE(is_perpendicular(*best.map));
+    EXPECT_EQ(best.code, canonical_code(*best.map));
+    if (size < 6) {
+      EXPECT_EQ(find_best(grid, planar(true), SearchOrder::kPathsWithCorners).code, best.code);
+    }
+  }
+}
+
+// 264 travels: long enough for iterative deepening, short enough for best-first search.
+TEST(BestMap, IterativeDeepeningFindsTheMapOfBestFirstSearch) {
+  const Exploration grid = test::snake(12, 12);
+  ExactSearchOptions options = planar(true);
+  options.compass = true;
+  const BestMap best_first = find_best(grid, options, SearchOrder::kCorners);
+  options.look_ahead = true;
+  const BestMap deepened = find_best(grid, options, SearchOrder::kCorners);
+  EXPECT_GT(best_first.bytes_per_node, 0U);
+  EXPECT_EQ(deepened.bytes_per_node, 0U);
+  EXPECT_EQ(deepened.code, best_first.code);
+  EXPECT_TRUE(deepened.is_proven);
+  EXPECT_EQ(deepened.map->place_count(), 144);
+}
+
+TEST(BestMap, ASearchThatIsCutOffProvesNothing) {
+  ExactSearchOptions options = planar(true);
+  options.max_nodes = 100;
+  const BestMap best = find_best(test::snake(6, 6), options, SearchOrder::kPlaces);
+  EXPECT_FALSE(best.map.has_value());
+  EXPECT_FALSE(best.is_proven);
+}
+
+TEST(BestMap, ThatThereIsNoneIsProven) {
+  const BestMap best =
+      find_best({test::crossing(), 0, {{1, test::tee(), 0}}}, {}, SearchOrder::kPlaces);
+  EXPECT_FALSE(best.map.has_value());
+  EXPECT_TRUE(best.is_proven);
+}
+
+TEST(CanonicalCode, DoesNotDependOnWhereAStarsListBegins) {
+  Exploration turned = test::snake(3, 3);
+  for (ExplorationStep& step : turned.steps) {
+    const std::size_t size = step.star.slots.size();
+    if (step.star.slots.back().gateway >= 0) {
+      continue;
+    }
+    // The terminated end comes first; gateways keep their numbers.
+    std::rotate(step.star.slots.begin(), step.star.slots.end() - 1, step.star.slots.end());
+    for (StarSlot& slot : step.star.slots) {
+      slot.partner = (slot.partner + 1) % size;
+    }
+  }
+  const MapCounts straight = enumerate(test::snake(3, 3), {}).counts;
+  const MapCounts rotated = enumerate(turned, {}).counts;
+  EXPECT_EQ(rotated.tree_nodes, straight.tree_nodes);
+  EXPECT_EQ(rotated.optimal->codes, straight.optimal->codes);
+}
+
+}  // namespace
+}  // namespace cairn
