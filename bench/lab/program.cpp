@@ -1,0 +1,52 @@
+#include "bench/lab/program.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <ostream>
+
+#include <CLI/CLI.hpp>
+
+#include "bench/lab/topology_command.hpp"
+#include "clients/common/failure.hpp"
+
+namespace cairn::lab {
+namespace {
+
+using clients::ExitCode;
+using clients::Failure;
+
+constexpr char kExitStatus[] =
+    "Exit status: 0 done; 1 done, but the counts are not those of the file, or an agreement does "
+    "not hold; 64 wrong command line; 65 bad data; 73 cannot write.";
+
+}  // namespace
+
+int run_lab(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
+  CLI::App app{"Experiments with cairn's algorithms where the right answer is known.", "cairn-lab"};
+  app.set_version_flag("--version", "cairn-lab " CAIRN_VERSION);
+  app.footer(kExitStatus);
+  app.require_subcommand(1);
+  int status = 0;
+  try {
+    add_topology_command(app, {out, err}, &status);
+    std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
+    app.parse(reversed);
+    out.flush();
+    return out ? status : static_cast<int>(ExitCode::kCannotCreate);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error, out, err) == 0 ? 0 : static_cast<int>(ExitCode::kUsage);
+  } catch (const Failure& failure) {
+    out.flush();
+    err << "cairn-lab: " << failure.what() << '\n';
+    return static_cast<int>(failure.code());
+  } catch (const std::bad_alloc&) {
+    err << "cairn-lab: not enough memory for this search; --max-nodes bounds it\n";
+    return static_cast<int>(ExitCode::kBadData);
+  } catch (const std::exception& error) {
+    err << "cairn-lab: " << error.what() << '\n';
+    return static_cast<int>(ExitCode::kBadData);
+  }
+}
+
+}  // namespace cairn::lab

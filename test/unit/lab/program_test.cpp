@@ -1,0 +1,282 @@
+#include "bench/lab/program.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "support/files.hpp"
+#include "support/recorded_data.hpp"
+
+namespace cairn::lab {
+namespace {
+
+using Json = nlohmann::json;
+using test::recorded_data;
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+struct Ran {
+  int status = -1;
+  std::string output;
+  std::string errors;
+};
+
+Ran run(const std::vector<std::string>& arguments) {
+  std::ostringstream out;
+  std::ostringstream err;
+  const int status = run_lab(arguments, out, err);
+  return {status, out.str(), err.str()};
+}
+
+/// A file of one exploration: a square loop of corners.
+Json square_loop() {
+  const Json counts = {{"tree_nodes", 11},
+                       {"maps_built", 8},
+                       {"view_mismatches", 0},
+                       {"final_maps", 4},
+                       {"closed_paper", 3},
+                       {"closed_no_pending", 3},
+                       {"region_consistent_finals", 3},
+                       {"perpendicular_closed_paper", 1},
+                       {"optimal", {{"count", 1}, {"paths", 3}, {"places", 3}}},
+                       {"leaves_per_step", {1, 2, 3, 4}}};
+  Json file;
+  file["stars"]["L"] = {{"slots", {0, 1, -1, -1}}, {"partner_slot", {2, 3, 0, 1}}};
+  Json& vector = file["vectors"][0];
+  vector["name"] = "square";
+  vector["start"] = {{"star", "L"}, {"gate", 0}};
+  vector["max_places"] = nullptr;
+  for (int step = 0; step < 4; ++step) {
+    vector["steps"].push_back(Json::array({step == 0 ? 0 : 1, "L", 1}));
+  }
+  vector["nonplanar"] = counts;
+  vector["planar"] = counts;
+  return file;
+}
+
+Ran run_on(const Json& file) {
+  const TemporaryFolder folder;
+  const std::string path = (folder / "vectors.json").string();
+  std::ofstream(path) << file.dump();
+  return run({"topology", "--vectors", path});
+}
+
+TEST(LabTopology, CountsTheGridsOfFigure4) {
+  const Ran ran = run({"topology", "--grid", "3x3", "--planar", "--json"});
+  ASSERT_EQ(ran.status, 0) << ran.errors;
+  const Json json = Json::parse(ran.output);
+  EXPECT_EQ(json["tree_nodes"], 240);
+  EXPECT_EQ(json["maps_built"], 147);
+  EXPECT_EQ(json["final_maps"], 62);
+  EXPECT_EQ(json["closed_paper"], 3);
+  EXPECT_EQ(json["optimal"]["count"], 1);
+  EXPECT_EQ(json["leaves_per_step"].size(), 16U);
+  EXPECT_EQ(json["is_complete"], true);
+}
+
+TEST(LabTopology, FollowsTheWalkItIsGiven) {
+  const Ran ran = run({"topology", "--grid", "3x4", "--walk", "ESSENNESSWWWNEEENWWWS", "--json"});
+  ASSERT_EQ(ran.status, 0) << ran.errors;
+  EXPECT_EQ(Json::parse(ran.output)["tree_nodes"], 4239);
+}
+
+TEST(LabTopology, BestFirstSearchFindsTheTrueMap) {
+  const Ran ran = run({"topology", "--grid", "5x5", "--planar", "--perpendicular", "--search",
+                       "best", "--order", "corners", "--json"});
+  ASSERT_EQ(ran.status, 0) << ran.errors;
+  const Json json = Json::parse(ran.output);
+  EXPECT_EQ(json["best"]["places"], 25);
+  EXPECT_EQ(json["best"]["paths"], 10);
+}
+
+TEST(LabTopology, SaysWhenItGivesUp) {
+  const Ran ran = run({"topology", "--grid", "4x4", "--max-nodes", "1000"});
+  ASSERT_EQ(ran.status, 0) << ran.errors;
+  EXPECT_THAT(ran.output, HasSubstr("given up after 1,000 nodes"));
+}
+
+TEST(LabTopology, WritesItsDrawings) {
+  const TemporaryFolder folder;
+  std::vector<std::string> arguments = {"topology", "--grid", "3x3", "--planar"};
+  for (const char* kind : {"svg", "dot", "graphml", "tree-dot"}) {
+    arguments.push_back(std::string("--") + kind);
+    arguments.push_back((folder / kind).string());
+  }
+  const Ran ran = run(arguments);
+  ASSERT_EQ(ran.status, 0) << ran.errors;
+  EXPECT_THAT(test::content_of(folder / "svg"), HasSubstr("the simplest closed map"));
+  EXPECT_THAT(test::content_of(folder / "dot"), HasSubstr("graph map"));
+  EXPECT_THAT(test::content_of(folder / "graphml"), HasSubstr("<graphml"));
+  EXPECT_THAT(test::content_of(folder / "tree-dot"), HasSubstr("digraph tree"));
+}
+
+TEST(LabTopology, DrawsAMapOfAWalkThatIsNotFinished) {
+  const TemporaryFolder folder;
+  const std::string path = (folder / "map.svg").string();
+  const Ran ran = run({"topology", "--grid", "3x3", "--walk", "EESWWN", "--svg", path});
+  ASSERT_EQ(ran.status, 0) << ran.errors;
+  EXPECT_THAT(test::content_of(path), HasSubstr("a simplest perpendicular map; none is closed"));
+  EXPECT_EQ(
+      run({"topology", "--grid", "3x3", "--walk", "E", "--search", "best", "--svg", path}).status,
+      65);
+}
+
+TEST(LabTopology, DrawsNoTreeThatNobodyCanRead) {
+  const TemporaryFolder folder;
+  const std::string path = (folder / "tree.dot").string();
+  const Ran ran = run({"topology", "--grid", "4x4", "--tree-dot", path});
+  EXPECT_EQ(ran.status, 65);
+  EXPECT_THAT(ran.errors, HasSubstr("more than 2,000 nodes"));
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(LabTopology, ComparesWithAFileOfVectors) {
+  const Ran ran = run_on(square_loop());
+  EXPECT_EQ(ran.status, 0) << ran.output << ran.errors;
+  EXPECT_THAT(ran.output, HasSubstr("2 of 2 agree"));
+}
+
+TEST(LabTopology, SaysWhichCountDiffers) {
+  Json file = square_loop();
+  file["vectors"][0]["planar"]["leaves_per_step"][2] = 7;
+  const Ran ran = run_on(file);
+  EXPECT_EQ(ran.status, 1);
+  EXPECT_THAT(ran.output, HasSubstr("square, planar: leaves_per_step[2]: expected 7, got 3"));
+  EXPECT_THAT(ran.output, HasSubstr("1 of 2 agree"));
+}
+
+TEST(LabTopology, AgreesWithThePublishedVectors) {
+  CAIRN_NEED_DATA("topology/vectors.json");
+  for (const char* name : {"topology/vectors.json", "topology/office.json"}) {
+    const Ran ran = run({"topology", "--json", "--vectors", recorded_data(name).string()});
+    EXPECT_EQ(ran.status, 0) << ran.errors;
+    const Json json = Json::parse(ran.output);
+    const Json file = Json::parse(std::ifstream(recorded_data(name)));
+    ASSERT_EQ(json["vectors"].size(), file["vectors"].size());
+    for (std::size_t i = 0; i < json["vectors"].size(); ++i) {
+      EXPECT_EQ(json["vectors"][i]["nonplanar"]["tree_nodes"],
+                file["vectors"][i]["nonplanar"]["tree_nodes"]);
+    }
+  }
+}
+
+TEST(LabTopology, ExploresRandomWorlds) {
+  const Ran ran = run({"topology", "--random", "1", "--count", "20", "--json"});
+  EXPECT_EQ(ran.status, 0) << ran.output << ran.errors;
+  const Json json = Json::parse(ran.output);
+  EXPECT_EQ(json["planar"]["true_map_among_leaves"], 20);
+  EXPECT_EQ(json["nonplanar"]["obvious_implementation_agrees"], 20);
+}
+
+struct BadFile {
+  const char* name;
+  void (*spoil)(Json& file);
+  const char* message;
+};
+
+void PrintTo(const BadFile& bad, std::ostream* out) {
+  *out << bad.name;
+}
+
+class LabBadVectors : public testing::TestWithParam<BadFile> {};
+
+TEST_P(LabBadVectors, AreNamed) {
+  Json file = square_loop();
+  GetParam().spoil(file);
+  const Ran ran = run_on(file);
+  EXPECT_EQ(ran.status, 65);
+  EXPECT_THAT(ran.errors, HasSubstr(GetParam().message));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Files,
+    LabBadVectors,
+    testing::Values(
+        BadFile{"UnknownStar", [](Json& file) { file["vectors"][0]["steps"][2][1] = "Q"; },
+                "vector square, steps, step 2, star: expected the name of a star of this file (L), "
+                "got \"Q\""},
+        BadFile{"TurnTooFar", [](Json& file) { file["vectors"][0]["steps"][1][0] = 2; },
+                "vector square, steps, step 1, turn: expected an integer from 0 to 1, got 2"},
+        BadFile{"ViewIsText", [](Json& file) { file["vectors"][0]["steps"][3][2] = "one"; },
+                "step 3, view: expected an integer from 0 to 1, got \"one\""},
+        BadFile{"StepIsShort", [](Json& file) { file["vectors"][0]["steps"][0] = {1}; },
+                "step 0: expected [turn, star, view], got [1]"},
+        BadFile{"NoStart", [](Json& file) { file["vectors"][0].erase("start"); },
+                "vector square: expected a field \"start\", got none"},
+        BadFile{"NoStars", [](Json& file) { file.erase("stars"); },
+                "the file: expected a field \"stars\", got none"},
+        BadFile{"NotAStar", [](Json& file) { file["stars"]["L"]["partner_slot"][0] = 0; },
+                "stars, L: expected a star that can be"},
+        BadFile{"HugeCount",
+                [](Json& file) { file["vectors"][0]["planar"]["final_maps"] = ~std::uint64_t{0}; },
+                "final_maps: expected an integer from 0 to 2147483647"},
+        BadFile{"BoundOfNothing", [](Json& file) { file["vectors"][0]["max_places"] = 0; },
+                "vector square, max_places: expected an integer from 1"},
+        BadFile{"ShortSeries",
+                [](Json& file) {
+                  file["vectors"][0]["planar"]["leaves_per_step"] = {1, 2};
+                },
+                "planar, leaves_per_step: expected a count for each of the 4 steps, got [1,2]"},
+        BadFile{"AnArray", [](Json& file) { file = Json::array(); },
+                "the file: expected an object, got []"}),
+    [](const auto& param) { return std::string(param.param.name); });
+
+TEST(LabTopology, RejectsWhatIsNoJson) {
+  const TemporaryFolder folder;
+  const std::string path = (folder / "vectors.json").string();
+  std::ofstream(path) << "{\"stars\": ";
+  const Ran ran = run({"topology", "--vectors", path});
+  EXPECT_EQ(ran.status, 65);
+  EXPECT_THAT(ran.errors, HasSubstr("not JSON"));
+  EXPECT_EQ(run({"topology", "--vectors", path + ".gone"}).status, 65);
+  EXPECT_EQ(run({"topology", "--vectors", (folder / "").string()}).status, 65);
+}
+
+TEST(LabTopology, RejectsWrongCommandLines) {
+  const std::vector<std::vector<std::string>> wrong = {
+      {},
+      {"metric"},
+      {"topology"},
+      {"topology", "--grid", "3by3"},
+      {"topology", "--grid", "0x3"},
+      {"topology", "--grid", "1x1"},
+      {"topology", "--grid", "3x3x3"},
+      {"topology", "--grid", "3x3", "--walk", "EEE"},
+      {"topology", "--grid", "3x3", "--walk", "EQ"},
+      {"topology", "--grid", "3x3", "--start", "3,0"},
+      {"topology", "--grid", "3x3", "--search", "widest"},
+      {"topology", "--grid", "3x3", "--order", "paths"},
+      {"topology", "--grid", "3x3", "--search", "best", "--order", "shortest"},
+      {"topology", "--grid", "3x3", "--search", "1"},
+      {"topology", "--grid", "3x3", "--search", "best", "--order", "corners"},
+      {"topology", "--grid", "3x3", "--max-places", "0"},
+      {"topology", "--grid", "3x3", "--max-corners", "4"},
+      {"topology", "--grid", "3x3", "--random", "1"},
+      {"topology", "--walk", "E", "--random", "1"},
+      {"topology", "--random", "1", "--perpendicular"},
+      {"topology", "--random", "1", "--count", "0"},
+      {"topology", "--count", "3", "--grid", "3x3"},
+  };
+  for (const std::vector<std::string>& arguments : wrong) {
+    const Ran ran = run(arguments);
+    std::string line;
+    for (const std::string& argument : arguments) {
+      line += " " + argument;
+    }
+    EXPECT_EQ(ran.status, 64) << "cairn-lab" << line;
+    EXPECT_NE(ran.errors, "") << "cairn-lab" << line;
+  }
+}
+
+TEST(LabTopology, CannotWriteWhereNobodyCan) {
+  const Ran ran = run({"topology", "--grid", "2x2", "--svg", "/no/such/folder/map.svg"});
+  EXPECT_EQ(ran.status, 73);
+}
+
+}  // namespace
+}  // namespace cairn::lab
