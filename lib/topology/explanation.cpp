@@ -76,9 +76,14 @@ bool HypothesisTree::has_taken(const Leaf& leaf,
   const TreeNodes& nodes = engine_->nodes;
   for (NodeIndex node = leaf.node; node != kNoNode; node = nodes[node].parent) {
     if (nodes[node].visit == visit && !nodes[node].is_part) {
+      const NodeIndex parent = nodes[node].parent;
+      const bool has_part = parent != kNoNode && nodes[parent].is_part;
+      const MapChange amendment = has_part ? nodes[parent].change : MapChange{};
       return alternative.refuted_by == Refutation::kNone && alternative.kind == nodes[node].kind &&
              alternative.change.kind == nodes[node].change.kind &&
              alternative.change.star == nodes[node].change.star &&
+             alternative.amendment.star == amendment.star &&
+             alternative.amendment.departure == amendment.departure &&
              alternative.position == nodes[node].position;
     }
   }

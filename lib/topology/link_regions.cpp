@@ -40,11 +40,16 @@ bool LinkRegions::stay_consistent(GatewayIndex a, GatewayIndex b) {
   return true;
 }
 
+// Paths end where a gateway leads one way only: following it might never come to an end.
 GatewayIndex LinkRegions::leads_to(GatewayIndex at) const {
   if (at == a_) {
     return b_;
   }
-  return at == b_ ? a_ : map_->leads_to(at);
+  if (at == b_) {
+    return a_;
+  }
+  const GatewayIndex end = map_->leads_to(at);
+  return end != kNoGateway && map_->leads_to(end) == at ? end : kNoGateway;
 }
 
 LinkRegions::Stop LinkRegions::stop_entered_by(GatewayIndex entry) const {
