@@ -19,10 +19,9 @@ namespace {
 
 /// A number that depends on the question alone.
 double noise(SeenGateway known, SeenGateway now, unsigned seed) {
-  std::seed_seq question{seed, static_cast<unsigned>(known.visit.value),
-                         static_cast<unsigned>(known.gateway),
-                         static_cast<unsigned>(now.visit.value),
-                         static_cast<unsigned>(now.gateway)};
+  std::seed_seq question{
+      seed, static_cast<unsigned>(known.visit.value), static_cast<unsigned>(known.gateway),
+      static_cast<unsigned>(now.visit.value), static_cast<unsigned>(now.gateway)};
   std::mt19937 random(question);
   return static_cast<double>(random() % 200) / 10.0 - 10.0;
 }
@@ -92,10 +91,9 @@ void expect_explained(const HypothesisTree& tree, HypothesisId id) {
     ASSERT_EQ(std::count_if(all.begin(), all.end(), [](const auto& one) { return one.is_taken; }),
               1)
         << "visit " << visit.value << ":\n"
-        << std::accumulate(all.begin(), all.end(), std::string(),
-                           [](const std::string& text, const auto& one) {
-                             return text + one.sentence + "\n";
-                           });
+        << std::accumulate(
+               all.begin(), all.end(), std::string(),
+               [](const std::string& text, const auto& one) { return text + one.sentence + "\n"; });
     for (const auto& one : all) {
       ASSERT_FALSE(one.sentence.empty());
     }
