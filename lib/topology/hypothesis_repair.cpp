@@ -14,7 +14,7 @@ namespace cairn {
 /// likely as the best of their time first; failing that, the arrival stays unexplained.
 void HypothesisTree::repair(ExtendReport& report) {
   report.repair.emplace();
-  search_among(waiting_, report);
+  search_among(waiting_, false, report);
   const bool is_among_waiting = !candidates_.empty();  // Consistent all the time: nothing is lost.
   if (candidates_.empty() && !engine_->options.noisy_stars) {
     engine_->successors.set_noisy(true);
@@ -23,7 +23,7 @@ void HypothesisTree::repair(ExtendReport& report) {
     root_ = first.node;  // What all agreed on may be in doubt again.
     engine_->nodes.hold(first.node);
     past.add(first, waiting_rank_of(first));
-    search_among(past, report);
+    search_among(past, true, report);
     engine_->successors.set_noisy(false);
     for (const Leaf& leaf : past.take_all()) {
       engine_->nodes.release(leaf.node);
@@ -58,27 +58,38 @@ Leaf HypothesisTree::first_leaf() const {
   return leaf;
 }
 
-/// Best first, until some explain the arrival.
-void HypothesisTree::search_among(DeferredLeaves& leaves, ExtendReport& report) {
-  const VisitId now = report.visit;
+/// Best first, until some explain the arrival and, if all are wanted, none that is left can do
+/// better.
+void HypothesisTree::search_among(DeferredLeaves& leaves, bool all_wanted, ExtendReport& report) {
+  const Preference preference = engine_->options.preference;
   const std::int64_t most = report.repair->steps + engine_->options.max_repair_steps;
-  while (!leaves.empty() && candidates_.empty() && report.repair->steps < most) {
+  std::vector<Candidate> found;
+  std::optional<Rank> best;
+  while (!leaves.empty() && report.repair->steps < most &&
+         (!best || (all_wanted && comes_before(leaves.best_rank(), *best, preference)))) {
     const Leaf leaf = leaves.take_best();
     ++report.repair->steps;
-    if (leaf.visit.value + 1 == now.value) {
-      expand(leaf, report);
+    candidates_.clear();
+    ExtendReport uncounted;
+    const bool is_last_step = leaf.visit.value + 1 == report.visit.value;
+    expand(leaf, is_last_step ? report : uncounted);
+    if (is_last_step) {
       searched_.push_back(leaf.node);  // Its candidates stand on it.
+      for (const Candidate& candidate : candidates_) {
+        Rank rank = rank_of(candidate.leaf);
+        rank.log_posterior -= baseline_log_posterior_.back();
+        best = best && comes_before(*best, rank, preference) ? *best : rank;
+      }
+      found.insert(found.end(), candidates_.begin(), candidates_.end());
       continue;
     }
-    ExtendReport uncounted;
-    expand(leaf, uncounted);
-    std::vector<Candidate> children = std::exchange(candidates_, {});
-    for (const Candidate& child : children) {
+    for (const Candidate& child : candidates_) {
       const Leaf grown = grow(child);
       leaves.add(grown, waiting_rank_of(grown));
     }
     engine_->nodes.release(leaf.node);
   }
+  candidates_ = std::move(found);
 }
 
 /// The best hypotheses only.

@@ -258,7 +258,7 @@ class HypothesisTree {
   [[nodiscard]] std::vector<Leaf> take_worst_half_of_live();
   void give_up(std::vector<Leaf> leaves, ExtendReport& report);
   void repair(ExtendReport& report);
-  void search_among(DeferredLeaves& leaves, ExtendReport& report);
+  void search_among(DeferredLeaves& leaves, bool all_wanted, ExtendReport& report);
   [[nodiscard]] Leaf first_leaf() const;
   void go_on_unexplained(ExtendReport& report);
   [[nodiscard]] Rank rank_of(const Leaf& leaf) const;
