@@ -1,6 +1,8 @@
 // A strict world in which a star is misread all the same: every map dies, and observations must be
 // blamed.
 
+#include <random>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,9 +13,6 @@
 namespace cairn::test {
 namespace {
 
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::Field;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
@@ -54,31 +53,29 @@ TEST(Repair, BlamesTheVisitThatMisreadTheStarAndGoesOnWithTheTrueMap) {
   EXPECT_FALSE(robot.travel(0, tee(), 2).repair);
 }
 
+// A misreading that leaves some map standing is no contradiction; all others are repaired.
 TEST(Repair, OnALatticeTheVisitIsBlamedAndTheTrueMapGoesOn) {
-  // Two laps of the left block of two; the second time its crossing-like tee is misread.
-  const Lattice streets(2, 3);
-  const Walk walk = streets.walk(0, "ESWNESWNEESWWNES");
-  const std::size_t misread_step = 8;  // The tee at the top, seen for the third time.
-  Traveller robot(walk.start.star, walk.start.arrival_gateway);
-  std::int64_t repairs = 0;
-  for (std::size_t step = 0; step < walk.steps.size(); ++step) {
-    View view = walk.steps[step].view;
-    if (step == misread_step) {
-      view.star = with_ends(view.star);
+  int true_maps = 0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    std::mt19937 random(seed);
+    const Lattice streets(3, 3);
+    const Walk walk = streets.walk(0, streets.random_moves(0, 80, random));
+    TopologyOptions options;
+    options.max_places = 9;
+    Traveller robot(walk.start.star, walk.start.arrival_gateway, options);
+    for (const Experienced& step : walk.steps) {
+      View view = step.view;
+      if (view.visit == VisitId{40}) {
+        view.star = with_ends(view.star);
+      }
+      const ExtendReport report = robot.travel(step.action.turn, view);
+      ASSERT_GT(report.leaves, 0);
+      EXPECT_FALSE(report.repair && view.visit < VisitId{40});
+      EXPECT_FALSE(report.repair && !report.repair->is_explained);
     }
-    const ExtendReport report = robot.travel(walk.steps[step].action.turn, view);
-    ASSERT_GT(robot.tree().live_count(), 0);
-    if (report.repair && !report.repair->blamed.empty()) {
-      ++repairs;
-      EXPECT_EQ(report.visit, VisitId{9}) << "as soon as it is seen";
-      EXPECT_TRUE(report.repair->is_explained);
-      EXPECT_THAT(report.repair->blamed, Contains(Field(&Blame::visit, VisitId{9})));
-    }
+    true_maps += count_true_maps(robot.tree(), walk) > 0 ? 1 : 0;
   }
-  EXPECT_LE(repairs, 1);
-  if (repairs == 0) {
-    EXPECT_GT(robot.best().place_count, 6) << "a chain explains everything";
-  }
+  EXPECT_GE(true_maps, 18);
 }
 
 TEST(Repair, AStarThatWasMisreadTheFirstTimeIsCorrected) {
