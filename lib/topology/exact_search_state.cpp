@@ -13,10 +13,12 @@ ExactSearchState::ExactSearchState(const ObservedWalk& walk,
       regions_(map_),
       bound_(map_, walk),
       headings_(map_),
-      look_ahead_(walk),
-      faces_(map_, walk, look_ahead_, bound_) {
+      look_ahead_(walk) {
   needs_.regions = needs.regions || options.region_consistent || options.perpendicular;
   needs_.corner_bound = needs.corner_bound || options.max_corners.has_value();
+  if (options.look_ahead_by_face) {
+    faces_.emplace(map_, walk, look_ahead_, bound_);
+  }
   map_.start(walk.start(), VisitId{0});
   const StarFacts& facts = walk.facts(walk.start());
   start_.arrival = walk.start_gateway();
@@ -49,7 +51,7 @@ GatewayIndex ExactSearchState::departure(const MapSummary& node, int step) const
 void ExactSearchState::expand(const MapSummary& node,
                               int step,
                               std::vector<Successor>* successors) {
-  if (options_.look_ahead_by_face && !suits_faces(node)) {
+  if (faces_ && !suits_faces(node)) {
     return;
   }
   const GatewayIndex from = departure(node, step);
@@ -195,7 +197,7 @@ bool ExactSearchState::suits_bound(const MapSummary& summary, int step) const {
 /// A closed map of four corners has four on every face (CornerBound).
 bool ExactSearchState::suits_faces(const MapSummary& node) {
   const int max_corners = options_.max_corners.value_or(walk_->step_count() + 1);
-  return faces_.allows(max_corners - node.corners, options_.max_corners && max_corners <= 4);
+  return faces_->allows(max_corners - node.corners, options_.max_corners && max_corners <= 4);
 }
 
 /// Whether the path of a pending gateway is known from one place only.

@@ -88,7 +88,7 @@ class ExactSearchState {
   CornerBound bound_;
   Headings headings_;
   LookAhead look_ahead_;
-  FaceLookAhead faces_;
+  std::optional<FaceLookAhead> faces_;  // Where it is asked for.
   MapSummary start_;
   std::int64_t view_mismatches_ = 0;
 };

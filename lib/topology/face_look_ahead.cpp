@@ -7,6 +7,7 @@ namespace cairn {
 namespace {
 
 constexpr std::uint64_t kAllGroups = ~std::uint64_t{0};
+constexpr std::size_t kMostViewsOfQuadrangles = 7;  // Of L, T, + and I.
 
 }  // namespace
 
@@ -16,21 +17,39 @@ FaceLookAhead::FaceLookAhead(const WorkingMap& map,
                              const CornerBound& bound)
     : map_(&map), walk_(&walk), look_ahead_(&look_ahead), bound_(&bound) {
   group_views();
+  list_links();
   list_kinds();
 }
 
 void FaceLookAhead::group_views() {
   group_.resize(look_ahead_->view_count());
   std::iota(group_.begin(), group_.end(), std::size_t{0});
-  links_.assign(group_.size() * group_.size(), false);
+  const auto root_of = [&](std::size_t view) {
+    while (group_[view] != view) {
+      view = group_[view] = group_[group_[view]];
+    }
+    return view;
+  };
+  for (int number = 0; number < walk_->step_count(); ++number) {
+    const ObservedStep& step = walk_->step(number);
+    group_[root_of(step.departure_view.index())] = root_of(step.arrival_view.index());
+  }
+  for (std::size_t view = 0; view < group_.size(); ++view) {
+    group_[view] = root_of(view);
+  }
+}
+
+/// Only quadrangles ask for links, and maps of quadrangles have few views.
+void FaceLookAhead::list_links() {
+  const std::size_t views = group_.size();
+  if (views > kMostViewsOfQuadrangles) {
+    return;
+  }
+  links_.assign(views * views, false);
   for (int number = 0; number < walk_->step_count(); ++number) {
     const std::size_t from = walk_->step(number).departure_view.index();
     const std::size_t to = walk_->step(number).arrival_view.index();
-    if (!links_[from * group_.size() + to]) {
-      links_[from * group_.size() + to] = links_[to * group_.size() + from] = true;
-      const std::size_t joined = group_[from];
-      std::replace(group_.begin(), group_.end(), joined, group_[to]);
-    }
+    links_[from * views + to] = links_[to * views + from] = true;
   }
 }
 

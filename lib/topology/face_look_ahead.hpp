@@ -54,6 +54,7 @@ class FaceLookAhead {
   };
 
   void group_views();
+  void list_links();
   void list_kinds();
   void find_room(int corners_left);
   [[nodiscard]] bool allows_face(GatewayIndex first, bool quadrangles);
