@@ -58,13 +58,14 @@ BENCHMARK(enumerate_16_places_nonplanar)->Args({4, 4})->Unit(benchmark::kMillise
 
 // --- The only closed map of a square grid with four corners: side.
 
-void enumerate_four_corners(benchmark::State& state, bool compass) {
+void enumerate_four_corners(benchmark::State& state, bool compass, bool by_face) {
   const auto side = static_cast<int>(state.range(0));
   const Exploration grid = test::snake(side, side);
   ExactSearchOptions options;
   options.planar = options.perpendicular = options.look_ahead = true;
   options.max_corners = 4;
   options.compass = compass;
+  options.look_ahead_by_face = by_face;
   std::int64_t nodes = 0;
   for (auto _ : state) {
     nodes = enumerate(grid, options).counts.tree_nodes;
@@ -72,11 +73,19 @@ void enumerate_four_corners(benchmark::State& state, bool compass) {
   count_nodes(state, nodes);
 }
 void enumerate_at_most_four_corners(benchmark::State& state) {
-  enumerate_four_corners(state, false);
+  enumerate_four_corners(state, false, false);
 }
 void enumerate_at_most_four_corners_by_compass(benchmark::State& state) {
-  enumerate_four_corners(state, true);
+  enumerate_four_corners(state, true, false);
 }
+void enumerate_at_most_four_corners_by_face(benchmark::State& state) {
+  enumerate_four_corners(state, false, true);
+}
+BENCHMARK(enumerate_at_most_four_corners_by_face)
+    ->Arg(6)
+    ->Arg(8)
+    ->Arg(9)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(enumerate_at_most_four_corners)->Arg(6)->Arg(9)->Arg(13)->Unit(benchmark::kMillisecond);
 BENCHMARK(enumerate_at_most_four_corners_by_compass)
     ->Arg(10)

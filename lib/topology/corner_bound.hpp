@@ -40,6 +40,11 @@ class CornerBound {
   [[nodiscard]] int growth_by_link(int position) const;
   [[nodiscard]] int growth_by_place(StarId star, int arrival_gateway) const;
 
+  /// To the next ring member. @pre at is pending
+  [[nodiscard]] int corners_after(GatewayIndex at) const {
+    return corners_[static_cast<std::size_t>(at)];
+  }
+
   /// Before the map applies the change (kPlace or kLink only).
   void apply(const MapChange& change);
   /// After the map has taken the change back.

@@ -22,6 +22,12 @@ struct ExactSearchOptions {
   /// close. Loses only maps that end with pending gateways. With max_corners also maps that need
   /// more corners than arrivals at corners are to come.
   bool look_ahead = false;
+  /// Skips also maps with a face whose pending gateways cannot be linked to each other and to
+  /// places that the rest of the experience can add there: by parity, by circular paths, and, if
+  /// max_corners is 4, since all faces must have four corners. Needs planar and look_ahead. Loses
+  /// only maps that end with pending gateways. What lets grids of an even side be found without a
+  /// compass.
+  bool look_ahead_by_face = false;
   /// Skips maps whose faces need more corners (places of type L) than max_corners allows. Needs
   /// planar and perpendicular; loses nothing that is closed.
   std::optional<int> max_corners;

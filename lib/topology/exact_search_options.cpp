@@ -33,6 +33,9 @@ Status validate(const ExactSearchOptions& options, const Exploration& exploratio
   const bool has_bound = options.max_corners.has_value();
   return Validator("exact search")
       .require("max_places", options.max_places.value_or(1) >= 1, "be at least 1")
+      .require("look_ahead_by_face",
+               !options.look_ahead_by_face || (options.planar && options.look_ahead),
+               "come with planar and look_ahead")
       .require("max_corners", options.max_corners.value_or(0) >= 0, "be at least 0")
       .require("max_corners", !has_bound || (options.planar && options.perpendicular),
                "come with planar and perpendicular")

@@ -16,6 +16,9 @@ ExactSearchState::ExactSearchState(const ObservedWalk& walk,
       look_ahead_(walk) {
   needs_.regions = needs.regions || options.region_consistent || options.perpendicular;
   needs_.corner_bound = needs.corner_bound || options.max_corners.has_value();
+  if (options.look_ahead_by_face) {
+    faces_.emplace(map_, walk, look_ahead_, bound_);
+  }
   map_.start(walk.start(), VisitId{0});
   const StarFacts& facts = walk.facts(walk.start());
   start_.arrival = walk.start_gateway();
@@ -48,6 +51,9 @@ GatewayIndex ExactSearchState::departure(const MapSummary& node, int step) const
 void ExactSearchState::expand(const MapSummary& node,
                               int step,
                               std::vector<Successor>* successors) {
+  if (faces_ && !suits_faces(node)) {
+    return;
+  }
   const GatewayIndex from = departure(node, step);
   if (!map_.is_pending(from)) {
     return follow(node, step, from, successors);
@@ -186,6 +192,12 @@ bool ExactSearchState::suits_bound(const MapSummary& summary, int step) const {
   }
   return summary.corners + summary.corners_needed <= *options_.max_corners &&
          (!options_.look_ahead || summary.corners_needed <= look_ahead_.corners_to_come(step + 1));
+}
+
+/// A closed map of four corners has four on every face (CornerBound).
+bool ExactSearchState::suits_faces(const MapSummary& node) {
+  const int max_corners = options_.max_corners.value_or(walk_->step_count() + 1);
+  return faces_->allows(max_corners - node.corners, options_.max_corners && max_corners <= 4);
 }
 
 /// Whether the path of a pending gateway is known from one place only.

@@ -6,6 +6,7 @@
 
 #include "topology/corner_bound.hpp"
 #include "topology/exact_search.hpp"
+#include "topology/face_look_ahead.hpp"
 #include "topology/headings.hpp"
 #include "topology/link_regions.hpp"
 #include "topology/look_ahead.hpp"
@@ -75,6 +76,7 @@ class ExactSearchState {
   [[nodiscard]] bool suits_headings(GatewayIndex a, GatewayIndex b) const;
   [[nodiscard]] bool suits_paths(GatewayIndex departure, GatewayIndex target, MapSummary*);
   [[nodiscard]] bool suits_bound(const MapSummary& summary, int step) const;
+  [[nodiscard]] bool suits_faces(const MapSummary& node);
   [[nodiscard]] bool is_lone(GatewayIndex pending) const;
 
   const ObservedWalk* walk_;
@@ -86,6 +88,7 @@ class ExactSearchState {
   CornerBound bound_;
   Headings headings_;
   LookAhead look_ahead_;
+  std::optional<FaceLookAhead> faces_;  // Where it is asked for.
   MapSummary start_;
   std::int64_t view_mismatches_ = 0;
 };

@@ -27,6 +27,10 @@ class LookAhead {
   void add_place(StarId star) { change_by_place(star, -1); }
   void remove_place(StarId star) { change_by_place(star, 1); }
 
+  [[nodiscard]] std::size_t view_count() const { return slack_.size(); }
+  /// Ends of travels to come, less pending gateways that look like this.
+  [[nodiscard]] int slack(ViewClassId view) const { return slack_[view.index()]; }
+
   /// Arrivals at places of type L from this step on.
   [[nodiscard]] int corners_to_come(int step) const {
     return corners_to_come_[static_cast<std::size_t>(step)];
