@@ -6,8 +6,8 @@
 #include <benchmark/benchmark.h>
 
 #include "support/explorations.hpp"
-#include "topology/exact_search.hpp"
-#include "topology/observed_walk.hpp"
+#include "exact_search/exact_search.hpp"
+#include "exact_search/observed_walk.hpp"
 #include "topology/working_map.hpp"
 
 namespace cairn {

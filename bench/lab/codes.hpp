@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "topology/exploration.hpp"
+#include "exact_search/exploration.hpp"
 
 namespace cairn::lab {
 

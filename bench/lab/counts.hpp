@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "topology/map_counts.hpp"
+#include "exact_search/map_counts.hpp"
 
 namespace cairn::lab {
 

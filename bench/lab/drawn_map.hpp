@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "topology/exploration.hpp"
+#include "exact_search/exploration.hpp"
 
 namespace cairn::lab {
 

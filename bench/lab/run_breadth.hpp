@@ -4,8 +4,10 @@
 
 namespace cairn::lab {
 
-/// The exploration told step by step, all consistent leaves kept. Fills in everything but the CPU
-/// time.
+/// The exploration told step by step to the on-line tree in strict mode, all consistent leaves
+/// kept. The CPU time is the tree's, without looking at the maps afterwards. Leaves per step that
+/// are region-consistent are not counted.
+/// @pre no option is set but planar, region_consistent, max_places, max_nodes and max_codes
 [[nodiscard]] SearchRun run_breadth(const Exploration& exploration,
                                     const ExactSearchOptions& options);
 

@@ -50,8 +50,7 @@ SearchRun run_search(SearchKind kind,
   SearchRun run;
   switch (kind) {
     case SearchKind::kBreadth:
-      run = run_breadth(exploration, options);
-      break;
+      return run_breadth(exploration, options);
     case SearchKind::kDepth:
       run = run_depth(exploration, options);
       break;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "topology/exact_search.hpp"
+#include "exact_search/exact_search.hpp"
 
 namespace cairn::lab {
 

@@ -97,17 +97,19 @@ void add_search(CLI::App& command, TopologyRequest* request, GridOptions* grid) 
                            "What best-first search takes for promising; those with corners need "
                            "--planar --perpendicular")
                     ->default_str("paths");
+  command.add_flag("--region-axiom", search.region_consistent,
+                   "Drop maps that are not region-consistent as soon as they are not");
   grid->options.insert(
       grid->options.end(),
       {grid->order,
        command.add_option("--max-places", search.max_places, "Drop maps of more places")
            ->check(CLI::Range(1, 1'000'000)),
-       command.add_flag("--region-axiom", search.region_consistent,
-                        "Drop maps that are not region-consistent as soon as they are not"),
        command.add_flag("--perpendicular", search.perpendicular,
                         "Drop maps where two paths meet twice or three form a triangle"),
        command.add_flag("--look-ahead", search.look_ahead,
                         "Skip maps that the rest of the walk cannot close"),
+       command.add_flag("--look-ahead-by-face", search.look_ahead_by_face,
+                        "Skip maps with a face that cannot be closed; with --planar --look-ahead"),
        command
            .add_option("--max-corners", search.max_corners,
                        "Skip maps that need more corners (L); with --planar --perpendicular")
@@ -149,6 +151,17 @@ void check_use(const TopologyRequest& request, const GridOptions& grid) {
   if (counts_corners && !(request.search.planar && request.search.perpendicular)) {
     throw Failure(ExitCode::kUsage,
                   "--order: an order with corners needs --planar and --perpendicular");
+  }
+  const ExactSearchOptions& search = request.search;
+  if (request.seed && search.region_consistent) {
+    throw Failure(ExitCode::kUsage, "--region-axiom needs --grid or --vectors");
+  }
+  if (request.kind == SearchKind::kBreadth &&
+      (search.perpendicular || search.look_ahead || search.max_corners ||
+       search.straight_corridors || search.compass)) {
+    throw Failure(ExitCode::kUsage,
+                  "--search breadth: the on-line tree cannot look ahead or assume headings or "
+                  "perpendicular streets; expected --search depth or best");
   }
   if (request.grid.empty() && request.kind == SearchKind::kBest) {
     throw Failure(ExitCode::kUsage, "--search best needs --grid: it does not count all maps");

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/lab/counts.hpp"
-#include "topology/exploration.hpp"
+#include "exact_search/exploration.hpp"
 
 namespace cairn::lab {
 

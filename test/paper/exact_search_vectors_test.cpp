@@ -13,7 +13,7 @@
 #include "support/explorations.hpp"
 #include "support/recorded_data.hpp"
 #include "support/stars.hpp"
-#include "topology/exact_search.hpp"
+#include "exact_search/exact_search.hpp"
 
 namespace cairn::test {
 namespace {

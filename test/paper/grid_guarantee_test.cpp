@@ -13,7 +13,7 @@
 #include "star/isomorphism.hpp"
 #include "support/obvious_tree.hpp"
 #include "support/search_options.hpp"
-#include "topology/exact_search.hpp"
+#include "exact_search/exact_search.hpp"
 
 namespace cairn::test {
 namespace {

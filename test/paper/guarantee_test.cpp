@@ -18,7 +18,7 @@
 #include "support/obvious_tree.hpp"
 #include "support/recorded_data.hpp"
 #include "support/search_options.hpp"
-#include "topology/exact_search.hpp"
+#include "exact_search/exact_search.hpp"
 
 namespace cairn::test {
 namespace {

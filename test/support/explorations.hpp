@@ -3,7 +3,7 @@
 #include <string>
 
 #include "support/lattice.hpp"
-#include "topology/exploration.hpp"
+#include "exact_search/exploration.hpp"
 
 namespace cairn::test {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "star/star.hpp"
-#include "topology/exploration.hpp"
+#include "exact_search/exploration.hpp"
 
 /// Maps for the obvious tree: see obvious_tree.hpp.
 namespace cairn::test {

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "bench/lab/worlds/random_world.hpp"
-#include "topology/exact_search.hpp"
+#include "exact_search/exact_search.hpp"
 
 namespace cairn::lab {
 

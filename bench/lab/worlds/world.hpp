@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "star/star.hpp"
-#include "topology/exploration.hpp"
+#include "exact_search/exploration.hpp"
 
 namespace cairn::lab {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "topology/exploration.hpp"
-#include "topology/map_counts.hpp"
+#include "exact_search/exploration.hpp"
+#include "exact_search/map_counts.hpp"
 #include "topology/topological_map.hpp"
 
 namespace cairn {

@@ -1,4 +1,4 @@
-#include "topology/map_tally.hpp"
+#include "exact_search/map_tally.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "topology/observed_walk.hpp"
+#include "exact_search/observed_walk.hpp"
 #include "topology/topological_map.hpp"
 #include "topology/working_map.hpp"
 

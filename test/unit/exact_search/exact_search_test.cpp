@@ -1,4 +1,4 @@
-#include "topology/exact_search.hpp"
+#include "exact_search/exact_search.hpp"
 
 #include <algorithm>
 #include <random>

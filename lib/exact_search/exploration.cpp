@@ -1,4 +1,4 @@
-#include "topology/exploration.hpp"
+#include "exact_search/exploration.hpp"
 
 #include <string>
 

@@ -1,12 +1,12 @@
 // Depth-first enumeration of the tree of maps.
 
-#include "topology/exact_search.hpp"
+#include "exact_search/exact_search.hpp"
 
 #include <utility>
 
-#include "topology/depth_first.hpp"
-#include "topology/map_tally.hpp"
-#include "topology/replay.hpp"
+#include "exact_search/depth_first.hpp"
+#include "exact_search/map_tally.hpp"
+#include "exact_search/replay.hpp"
 
 namespace cairn {
 namespace {

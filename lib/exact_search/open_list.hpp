@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "topology/search_cost.hpp"
+#include "exact_search/search_cost.hpp"
 
 namespace cairn {
 

@@ -1,4 +1,4 @@
-#include "topology/replay.hpp"
+#include "exact_search/replay.hpp"
 
 #include <memory>
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "topology/exact_search_state.hpp"
+#include "exact_search/exact_search_state.hpp"
 
 namespace cairn {
 

@@ -1,4 +1,4 @@
-#include "topology/look_ahead.hpp"
+#include "exact_search/look_ahead.hpp"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "topology/exploration.hpp"
+#include "exact_search/exploration.hpp"
 #include "topology/star_catalogue.hpp"
 
 namespace cairn {

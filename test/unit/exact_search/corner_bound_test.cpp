@@ -1,4 +1,4 @@
-#include "topology/corner_bound.hpp"
+#include "exact_search/corner_bound.hpp"
 
 #include <algorithm>
 #include <random>

@@ -4,13 +4,13 @@
 #include <optional>
 #include <vector>
 
-#include "topology/corner_bound.hpp"
-#include "topology/exact_search.hpp"
-#include "topology/face_look_ahead.hpp"
-#include "topology/headings.hpp"
+#include "exact_search/corner_bound.hpp"
+#include "exact_search/exact_search.hpp"
+#include "exact_search/face_look_ahead.hpp"
+#include "exact_search/headings.hpp"
 #include "topology/link_regions.hpp"
-#include "topology/look_ahead.hpp"
-#include "topology/observed_walk.hpp"
+#include "exact_search/look_ahead.hpp"
+#include "exact_search/observed_walk.hpp"
 #include "topology/path_marks.hpp"
 #include "topology/working_map.hpp"
 

@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "topology/depth_first.hpp"
-#include "topology/exact_search.hpp"
-#include "topology/open_list.hpp"
-#include "topology/replay.hpp"
+#include "exact_search/depth_first.hpp"
+#include "exact_search/exact_search.hpp"
+#include "exact_search/open_list.hpp"
+#include "exact_search/replay.hpp"
 
 namespace cairn {
 namespace {

@@ -1,4 +1,4 @@
-#include "topology/open_list.hpp"
+#include "exact_search/open_list.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "topology/headings.hpp"
+#include "exact_search/headings.hpp"
 
 namespace cairn {
 

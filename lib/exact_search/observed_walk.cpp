@@ -1,4 +1,4 @@
-#include "topology/observed_walk.hpp"
+#include "exact_search/observed_walk.hpp"
 
 #include <algorithm>
 #include <map>

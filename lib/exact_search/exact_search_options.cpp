@@ -2,7 +2,7 @@
 
 #include "base/validator.hpp"
 #include "star/isomorphism.hpp"
-#include "topology/exact_search.hpp"
+#include "exact_search/exact_search.hpp"
 
 namespace cairn {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "topology/exact_search_state.hpp"
-#include "topology/map_counts.hpp"
+#include "exact_search/exact_search_state.hpp"
+#include "exact_search/map_counts.hpp"
 
 namespace cairn {
 

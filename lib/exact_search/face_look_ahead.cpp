@@ -1,4 +1,4 @@
-#include "topology/face_look_ahead.hpp"
+#include "exact_search/face_look_ahead.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -82,8 +82,8 @@ bool FaceLookAhead::allows(int corners_left, bool quadrangles) {
   find_room(corners_left);
   demands_.clear();
   ++now_;
-  seen_.resize(std::max(seen_.size(), static_cast<std::size_t>(map_->gateway_count())), 0);
-  for (GatewayIndex at = 0; at < map_->gateway_count(); ++at) {
+  seen_.resize(std::max(seen_.size(), static_cast<std::size_t>(map_->end_gateway())), 0);
+  for (GatewayIndex at = 0; at < map_->end_gateway(); ++at) {
     if (map_->is_pending(at) && seen_[static_cast<std::size_t>(at)] != now_ &&
         !allows_face(at, quadrangles)) {
       return false;

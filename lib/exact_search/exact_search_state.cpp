@@ -1,4 +1,4 @@
-#include "topology/exact_search_state.hpp"
+#include "exact_search/exact_search_state.hpp"
 
 namespace cairn {
 

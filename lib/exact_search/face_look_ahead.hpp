@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "topology/corner_bound.hpp"
-#include "topology/look_ahead.hpp"
-#include "topology/observed_walk.hpp"
-#include "topology/quadrangulation.hpp"
+#include "exact_search/corner_bound.hpp"
+#include "exact_search/look_ahead.hpp"
+#include "exact_search/observed_walk.hpp"
+#include "exact_search/quadrangulation.hpp"
 #include "topology/working_map.hpp"
 
 namespace cairn {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "topology/observed_walk.hpp"
+#include "exact_search/observed_walk.hpp"
 #include "topology/working_map.hpp"
 
 namespace cairn {

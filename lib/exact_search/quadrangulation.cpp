@@ -1,4 +1,4 @@
-#include "topology/quadrangulation.hpp"
+#include "exact_search/quadrangulation.hpp"
 
 namespace cairn {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "star/isomorphism.hpp"
-#include "topology/exact_search.hpp"
+#include "exact_search/exact_search.hpp"
 
 namespace cairn {
 namespace {
