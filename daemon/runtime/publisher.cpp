@@ -18,17 +18,17 @@ constexpr std::size_t kMostUnderWay = 256;
 constexpr std::int64_t kLost_us = 60'000'000;  ///< What is under way for longer is asked for anew.
 constexpr std::size_t kMaxTopologyBytes = 60'000;  ///< Larger messages may not arrive in one piece.
 
-struct Route {
+struct Addressed {
   const char* channel;
   cairn_lcm::result_t* result;
 };
-Route route_of(cairn_lcm::result_t& answer) {
+Addressed addressed(cairn_lcm::result_t& answer) {
   return {"CAIRN_RESULT", &answer};
 }
-Route route_of(cairn_lcm::assertion_report_t& answer) {
+Addressed addressed(cairn_lcm::assertion_report_t& answer) {
   return {"CAIRN_ASSERTION", &answer.result};
 }
-Route route_of(cairn_lcm::explanation_t& answer) {
+Addressed addressed(cairn_lcm::explanation_t& answer) {
   return {"CAIRN_EXPLANATION", &answer.result};
 }
 
@@ -128,7 +128,7 @@ void Publisher::publish(const MappingReport& report) {
 void Publisher::publish(const MapAnswer& answer) {
   std::visit(
       [this](auto message) {
-        const auto [channel, result] = route_of(message);
+        const auto [channel, result] = addressed(message);
         cairn_lcm::rpc_header_t& header = result->header;
         header.utime = wall_utime();
         header.boot_id = boot_id_;

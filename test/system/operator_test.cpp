@@ -18,13 +18,13 @@ using ::testing::HasSubstr;
 
 class OperatorTest : public ::testing::Test {
  protected:
-  OperatorTest() {
-    EXPECT_EQ(run({CAIRN_SIM, CAIRN_SOURCE_DIR "/config/worlds/square.txt", "--tour", "loop",
+  void drive_the_tour() {
+    ASSERT_EQ(run({CAIRN_SIM, CAIRN_SOURCE_DIR "/config/worlds/square.txt", "--tour", "loop",
                    "--log", log()},
                   folder_)
                   .status,
               0);
-    EXPECT_EQ(run({CAIRND, "--replay", log(), "--map", map()}, folder_).status, 0);
+    ASSERT_EQ(run({CAIRND, "--replay", log(), "--map", map()}, folder_).status, 0);
   }
 
   [[nodiscard]] std::string log() const { return (folder_ / "tour.log").string(); }
@@ -44,6 +44,10 @@ class OperatorTest : public ::testing::Test {
         std::vector<std::string>{CAIRND, "--lcm-url", hub_.url(), "--map", map()}, folder_);
     EXPECT_TRUE(eventually([&] { return asked({"places"}).is_object(); })) << process->errors();
     return process;
+  }
+  int status_number(const char* key) {
+    const json status = asked({"status"});
+    return status.is_object() ? status.value(key, 0) : 0;
   }
   /// The map without what tells one run of the daemon, or one hypothesis number, from another.
   json places() {
@@ -68,6 +72,7 @@ class OperatorTest : public ::testing::Test {
 };
 
 TEST_F(OperatorTest, TellsApartWhatTheMapMergedAndTakesItBack) {
+  drive_the_tour();
   std::unique_ptr<Process> process = daemon();
   const json merged = places();
   const std::vector<int> before = visits();
@@ -121,7 +126,41 @@ TEST_F(OperatorTest, TellsApartWhatTheMapMergedAndTakesItBack) {
   EXPECT_EQ(visits(), before);
 }
 
+/// Scans and visits come before and after the assertion, and all of it is taken up in its order.
+TEST_F(OperatorTest, GoesOnAlikeAfterAnAssertionInTheMiddleOfATour) {
+  std::unique_ptr<Process> process = daemon();
+  Process sim({CAIRN_SIM, CAIRN_SOURCE_DIR "/config/worlds/square.txt", "--tour", "loop", "--speed",
+               "10", "--lcm-url", hub_.url()},
+              folder_);
+  ASSERT_TRUE(eventually([&] { return status_number("num_visits") >= 3; }));
+  EXPECT_EQ(cairn({"different", "visit:0", "visit:2"}).status, 0);
+  EXPECT_EQ(cairn({"same", "visit:0", "visit:1"}).status, 0);
+  EXPECT_EQ(cairn({"retract", "2"}).status, 0);
+  EXPECT_EQ(sim.wait().status, 0) << sim.errors();
+  // The input has paused for long enough that the last visit is closed.
+  ASSERT_TRUE(eventually([&] { return status_number("scan_age_ms") > 7000; }));
+  const auto known = [this] {
+    json all = {{"places", asked({"places"})},
+                {"hypotheses", asked({"hypotheses"})},
+                {"assertions", asked({"assertions"})}};
+    for (json& document : all) {
+      document.erase("boot_id");
+      document.erase("utime");
+    }
+    return all;
+  };
+  const json before = known();
+  EXPECT_EQ(before["assertions"]["assertions"].size(), 2U);
+  EXPECT_GT(before["hypotheses"]["num_visits"].get<int>(), 3);
+
+  process->send(SIGKILL);
+  static_cast<void>(process->wait());
+  process = daemon();
+  EXPECT_EQ(known(), before);
+}
+
 TEST_F(OperatorTest, IsToldWhatCannotBe) {
+  drive_the_tour();
   const std::unique_ptr<Process> process = daemon();
   EXPECT_EQ(cairn({"same", "0", "99"}).status, 65);
   EXPECT_EQ(cairn({"same", "0", "attic"}).status, 65);

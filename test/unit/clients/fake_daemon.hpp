@@ -119,7 +119,7 @@ class FakeDaemon {
     cairn_lcm::assertion_report_t report{};
     report.result.header = request.header;
     report.assertion = 3;
-    report.sentence = "1 visits are at other places now";
+    report.sentence = "visit 9 is at another place now";
     report.num_moved = report.num_listed = 1;
     report.visit = {9};
     report.known_since_before = {2};

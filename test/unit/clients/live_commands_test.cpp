@@ -125,7 +125,7 @@ TEST_F(LiveCommands, PathIsAskedForAndPrinted) {
 TEST_F(LiveCommands, AnAssertionSaysWhatChanged) {
   const Outcome done = run({"different", "3", "visit:9", "--who", "alice"});
   EXPECT_EQ(done.status, 0) << done.err;
-  EXPECT_THAT(done.out, HasSubstr("assertion 3: 1 visits are at other places now"));
+  EXPECT_THAT(done.out, HasSubstr("assertion 3: visit 9 is at another place now"));
   EXPECT_THAT(done.out, HasSubstr("visit 9: place 6 (known since visit 9)"));
   EXPECT_EQ(daemon_.heard_.a.place, 3);
   EXPECT_EQ(daemon_.heard_.b.visit, 9);
