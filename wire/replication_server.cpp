@@ -46,6 +46,12 @@ ReplicationServer::ReplicationServer(std::int64_t boot_id,
       send_delta_(std::move(send_delta)),
       options_(options) {}
 
+void ReplicationServer::documents_changed() {
+  for (auto& [id, snapshot] : snapshots_) {
+    snapshot.is_outdated = snapshot.is_outdated || sources_.count(snapshot.what) != 0;
+  }
+}
+
 void ReplicationServer::serve(std::int32_t what, Source source) {
   sources_[what] = std::move(source);
 }
@@ -152,7 +158,8 @@ bool ReplicationServer::offer_snapshot(std::int64_t now_us,
                                        std::int64_t newer_than) {
   for (auto known = snapshots_.rbegin(); known != snapshots_.rend(); ++known) {
     Snapshot& snapshot = known->second;
-    if (snapshot.what == what && now_us - snapshot.made_us < options_.join_window_us &&
+    if (snapshot.what == what && !snapshot.is_outdated &&
+        now_us - snapshot.made_us < options_.join_window_us &&
         snapshot.document.revision > newer_than) {
       snapshot.asked_us = now_us;
       queue_all_chunks(known->first, snapshot);
@@ -177,7 +184,7 @@ std::optional<Document> ReplicationServer::make_document(std::int32_t what) cons
 }
 
 void ReplicationServer::add_snapshot(std::int64_t now_us, std::int32_t what, Document document) {
-  Snapshot snapshot{what, std::move(document), 0, 0, now_us, now_us};
+  Snapshot snapshot{what, std::move(document), 0, 0, now_us, now_us, false};
   const auto size = static_cast<std::int64_t>(snapshot.document.bytes.size());
   snapshot.crc32 = crc32_of(snapshot.document.bytes);
   snapshot.num_chunks =

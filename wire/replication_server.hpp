@@ -69,6 +69,8 @@ class ReplicationServer {
 
   /// Where the documents of a kind come from that is no replicated grid.
   void serve(std::int32_t what, Source source);
+  /// These documents have changed: who asks from now on gets new ones, and shares none made before.
+  void documents_changed();
   /// Takes changed tiles over and queues their deltas. Another map_id, cell size or tile size than
   /// before starts the grid afresh; the revision goes on. Tiles that are as before cost nothing.
   /// @pre every tile has tile_cells^2 cells; others are left out
@@ -99,6 +101,7 @@ class ReplicationServer {
     std::int32_t num_chunks = 0;
     std::int64_t made_us = 0;
     std::int64_t asked_us = 0;
+    bool is_outdated = false;  ///< It has changed since.
   };
   /// Ordered, so that a thing asked for twice is sent once, the older snapshot first.
   struct DueDelta {

@@ -8,8 +8,15 @@
 
 // Declared, not included: a file that decodes one type does not pay for all of them.
 namespace cairn_lcm {
+class assert_request_t;
+class assertion_report_t;
+class assertion_t;
+class assertions_t;
 class delta_request_t;
 class event_request_t;
+class explain_request_t;
+class explained_step_t;
+class explanation_t;
 class gateway_t;
 class grid_map_t;
 class hypotheses_t;
@@ -18,6 +25,7 @@ class map_delta_t;
 class name_request_t;
 class odometry_t;
 class place_event_t;
+class place_ref_t;
 class place_t;
 class plan_request_t;
 class plan_t;
@@ -52,6 +60,9 @@ namespace cairn::wire {
 // A message within another is its signature in braces.
 #define CAIRN_RPC_HEADER "{q q i q}"
 #define CAIRN_RESULT "{" CAIRN_RPC_HEADER " i s i s}"
+#define CAIRN_PLACE_REF "q q s"
+#define CAIRN_ASSERTION "q i q q q q i s q q s s q q s"
+#define CAIRN_STEP "q q q s i s q i q i d i q d s"
 #define CAIRN_GATEWAY "d d d d i q"
 #define CAIRN_PLACE "q s d d d d[=9] s i i {" CAIRN_GATEWAY "}[8]"
 #define CAIRN_SEGMENT "q i q i i d d d d d[=9]"
@@ -60,17 +71,26 @@ namespace cairn::wire {
   template <>                       \
   inline constexpr std::string_view kSignatureText<type> = text
 
+CAIRN_SIGNATURE(cairn_lcm::assert_request_t,
+                CAIRN_RPC_HEADER "i {" CAIRN_PLACE_REF "} {" CAIRN_PLACE_REF "} q s");
+CAIRN_SIGNATURE(cairn_lcm::assertion_report_t, CAIRN_RESULT "q q q d d s i i q[8] q[8] q[8] q[8]");
+CAIRN_SIGNATURE(cairn_lcm::assertion_t, CAIRN_ASSERTION);
+CAIRN_SIGNATURE(cairn_lcm::assertions_t, "q q q q i {" CAIRN_ASSERTION "}[4]");
 CAIRN_SIGNATURE(cairn_lcm::delta_request_t, CAIRN_RPC_HEADER "i q q");
 CAIRN_SIGNATURE(cairn_lcm::event_request_t, CAIRN_RPC_HEADER "q");
+CAIRN_SIGNATURE(cairn_lcm::explain_request_t, CAIRN_RPC_HEADER "i q q q");
+CAIRN_SIGNATURE(cairn_lcm::explained_step_t, CAIRN_STEP);
+CAIRN_SIGNATURE(cairn_lcm::explanation_t, CAIRN_RESULT "q i q q d s q i i {" CAIRN_STEP "}[9]");
 CAIRN_SIGNATURE(cairn_lcm::gateway_t, CAIRN_GATEWAY);
 CAIRN_SIGNATURE(cairn_lcm::grid_map_t, "q q q d i i {" CAIRN_TILE "}[5]");
 CAIRN_SIGNATURE(cairn_lcm::hypotheses_t,
-                "q q q q q q q q s i q[9] q[9] d[9] d[9] i[9] i[9] i[9] i[9]");
+                "q q q q q q q q q s s i q[11] q[11] d[11] d[11] i[11] i[11] i[11] i[11]");
 CAIRN_SIGNATURE(cairn_lcm::laser_scan_t, "q d d d d i f[5]");
 CAIRN_SIGNATURE(cairn_lcm::map_delta_t, "q q q i q q d i i i i i b[11]");
 CAIRN_SIGNATURE(cairn_lcm::name_request_t, CAIRN_RPC_HEADER "q s");
 CAIRN_SIGNATURE(cairn_lcm::odometry_t, "q d d d");
 CAIRN_SIGNATURE(cairn_lcm::place_event_t, "q q q i s q q s");
+CAIRN_SIGNATURE(cairn_lcm::place_ref_t, CAIRN_PLACE_REF);
 CAIRN_SIGNATURE(cairn_lcm::place_t, CAIRN_PLACE);
 CAIRN_SIGNATURE(cairn_lcm::plan_request_t, CAIRN_RPC_HEADER "q q s d d d");
 CAIRN_SIGNATURE(cairn_lcm::plan_t, CAIRN_RESULT "q q q d i q[5] i s[7] i d[9] d[9] d[9]");
@@ -82,7 +102,7 @@ CAIRN_SIGNATURE(cairn_lcm::snapshot_chunk_t, "q q i q q q i i i i i i b[11]");
 CAIRN_SIGNATURE(cairn_lcm::snapshot_request_t, CAIRN_RPC_HEADER "i q q i i[4]");
 CAIRN_SIGNATURE(cairn_lcm::sonar_ring_t, "q i f[1] f[1] f[1] f[1]");
 CAIRN_SIGNATURE(cairn_lcm::status_t,
-                "q q i s i s s  q q q q  i i i d i i q  q q q q q q q q q q q q i i f f f");
+                "q q i s i s s  q q q q  i i i q d i i q s  q q q q q q q q q q q q i i f f f");
 CAIRN_SIGNATURE(cairn_lcm::tile_t, CAIRN_TILE);
 CAIRN_SIGNATURE(cairn_lcm::topology_t,
                 "q q q q q d q i i {" CAIRN_PLACE "}[8] i {" CAIRN_SEGMENT "}[10]");
@@ -101,6 +121,9 @@ CAIRN_SIGNATURE(vulcan_lcm::odometry_t, "q i d d d d d");
 #undef CAIRN_SEGMENT
 #undef CAIRN_PLACE
 #undef CAIRN_GATEWAY
+#undef CAIRN_STEP
+#undef CAIRN_ASSERTION
+#undef CAIRN_PLACE_REF
 #undef CAIRN_RESULT
 #undef CAIRN_RPC_HEADER
 

@@ -70,4 +70,23 @@ std::optional<cairn_lcm::plan_request_t> parse_goal(const std::string& text) {
   return request;
 }
 
+std::optional<cairn_lcm::place_ref_t> parse_place(const std::string& text) {
+  constexpr std::string_view kVisit = "visit:";
+  const bool is_visit = text.compare(0, kVisit.size(), kVisit) == 0;
+  const std::string_view rest = std::string_view(text).substr(is_visit ? kVisit.size() : 0);
+  const bool is_number =
+      !rest.empty() && rest.find_first_not_of("-0123456789") == std::string_view::npos;
+  cairn_lcm::place_ref_t place{-1, -1, ""};
+  if (!is_visit && !is_number) {
+    place.name = text;
+    return text.empty() ? std::nullopt : std::optional(place);
+  }
+  const std::optional<std::int64_t> number = parse_number<std::int64_t>(rest);
+  if (!number || *number < 0) {
+    return std::nullopt;
+  }
+  (is_visit ? place.visit : place.place) = *number;
+  return place;
+}
+
 }  // namespace cairn::clients

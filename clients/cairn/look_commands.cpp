@@ -21,7 +21,7 @@ constexpr DocumentName kDocumentNames[] = {{Request::GLOBAL_MAP, "global_map"},
                                            {Request::HYPOTHESES, "hypotheses"},
                                            {Request::TRAJECTORY, "trajectory"},
                                            {Request::LPM, "local_map"}};
-constexpr const char* kJournalTables[] = {"visit", "scan"};
+constexpr const char* kJournalTables[] = {"visit", "scan", "assertion"};
 
 // A map file just begun holds no documents yet; that is no damage.
 template <typename Message>
@@ -42,10 +42,12 @@ Json file_summary(MapFile& file, const std::string& name) {
   }
   if (hypotheses) {
     json["num_hypotheses"] = hypotheses->num_live;
+    json["num_waiting"] = hypotheses->num_waiting;
     json["num_refuted"] = hypotheses->num_refuted;
     json["num_visits"] = hypotheses->num_visits;
     json["guarantee_given_up_at"] = hypotheses->guarantee_given_up_at;
     json["guarantee_reason"] = hypotheses->guarantee_reason;
+    json["blamed"] = hypotheses->blamed;
   }
   json["documents"] = Json::object();
   const std::map<std::int32_t, MapFile::Document> documents = file.documents();
@@ -83,9 +85,12 @@ void print_file(std::ostream& out, const Json& json) {
   }
   if (json.contains("num_hypotheses")) {
     out << "hypotheses   " << number(json, "num_hypotheses") << " live after "
-        << number(json, "num_visits") << " visits, " << number(json, "num_refuted")
-        << " refuted\nguarantee    "
+        << number(json, "num_visits") << " visits, " << number(json, "num_waiting") << " waiting, "
+        << number(json, "num_refuted") << " refuted\nguarantee    "
         << guarantee_text(json["guarantee_given_up_at"], json["guarantee_reason"]) << '\n';
+    if (!json["blamed"].get<std::string>().empty()) {
+      out << "blamed       " << printable(json["blamed"].get<std::string>()) << '\n';
+    }
   }
   for (const auto& [name, document] : json["documents"].items()) {
     out << "document     " << name << " at revision " << number(document, "revision") << ", "

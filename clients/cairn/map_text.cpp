@@ -91,8 +91,11 @@ void print_status(std::ostream& out, const cairn_lcm::status_t& status) {
   line(out, "places", count_of(status.num_places, "in ") + count_of(status.num_visits, "visits"));
   line(out, "hypotheses",
        count_of(status.num_hypotheses, "live, the best with probability ") +
-           fixed(status.best_probability, 3));
+           fixed(status.best_probability, 3) + "; " + count_of(status.num_waiting, "waiting"));
   line(out, "guarantee", guarantee_text(status.guarantee_given_up_at, ""));
+  if (!status.blamed.empty()) {
+    line(out, "blamed", printable(status.blamed));
+  }
   print_inputs(out, status);
 }
 
@@ -121,12 +124,15 @@ void print_hypotheses(std::ostream& out, const cairn_lcm::hypotheses_t& hypothes
   table.print(out);
   const auto listed = static_cast<std::int64_t>(hypotheses.id.size());
   out << hypotheses.num_live << " live after " << hypotheses.num_visits << " visits, "
-      << hypotheses.num_refuted << " refuted"
+      << hypotheses.num_waiting << " waiting, " << hypotheses.num_refuted << " refuted"
       << (listed < hypotheses.num_live ? "; the best " + std::to_string(listed) + " are listed"
                                        : "")
       << '\n'
       << "guarantee "
       << guarantee_text(hypotheses.guarantee_given_up_at, hypotheses.guarantee_reason) << '\n';
+  if (!hypotheses.blamed.empty()) {
+    out << "blamed    " << printable(hypotheses.blamed) << '\n';
+  }
 }
 
 void print_plan(std::ostream& out, const cairn_lcm::plan_t& plan) {

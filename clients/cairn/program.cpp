@@ -27,6 +27,8 @@ void add_commands(CLI::App& app, const Streams& streams) {
   add_hypotheses_command(app, streams);
   add_map_command(app, streams);
   add_name_command(app, streams);
+  add_assertion_commands(app, streams);
+  add_why_command(app, streams);
   add_path_command(app, streams);
   add_export_command(app, streams);
   add_log_command(app, streams);

@@ -124,9 +124,9 @@ class Watcher {
 
   void on_status(const cairn_lcm::status_t& status) {
     events_.on_status(status.boot_id, status.event_number);
-    const auto key =
-        std::make_tuple(status.boot_id, status.state, status.reason, status.num_places,
-                        status.num_hypotheses, status.is_localized, status.is_guarantee_kept);
+    const auto key = std::make_tuple(status.boot_id, status.state, status.reason, status.num_places,
+                                     status.num_hypotheses, status.is_localized,
+                                     status.is_guarantee_kept, status.blamed);
     if (last_status_ && *last_status_ == key) {
       return;
     }
@@ -135,9 +135,11 @@ class Watcher {
           printable(status.state_name) +
               (status.reason.empty() ? "" : " (" + printable(status.reason) + ")") + ", " +
               std::to_string(status.num_places) + " places, " +
-              std::to_string(status.num_hypotheses) + " hypotheses, " +
+              std::to_string(status.num_hypotheses) + " hypotheses and " +
+              std::to_string(status.num_waiting) + " waiting, " +
               (status.is_localized != 0 ? "localized" : "not localized") +
-              (status.is_guarantee_kept != 0 ? "" : ", guarantee given up"),
+              (status.is_guarantee_kept != 0 ? "" : ", guarantee given up") +
+              (status.blamed.empty() ? "" : ", blamed " + printable(status.blamed)),
           to_json(status));
   }
 
@@ -168,7 +170,8 @@ class Watcher {
                                std::int32_t,
                                std::int32_t,
                                std::int32_t,
-                               std::int32_t>;
+                               std::int32_t,
+                               std::string>;
 
   const WatchOptions& options_;
   const Streams& streams_;

@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 #include <random>
+#include <tuple>
 #include <utility>
 
 #include <cairn_lcm/result_t.hpp>
@@ -38,26 +39,41 @@ struct DaemonLink::Inbox {
   std::optional<cairn_lcm::status_t> status;
   std::int64_t client_id = 0;  ///< Of the request under way: answers to others are not for us.
   std::optional<result_t> result;
-  std::optional<cairn_lcm::plan_t> plan;
+  std::tuple<std::optional<cairn_lcm::plan_t>,
+             std::optional<cairn_lcm::assertion_report_t>,
+             std::optional<cairn_lcm::explanation_t>>
+      answers;
   wire::DocumentFetch* fetch = nullptr;
 
   /// @return when the waiting begins: equal to heard_us as long as nobody is heard
   std::int64_t begin(std::int64_t client) {
     client_id = client;
     result.reset();
-    plan.reset();
+    answers = {};
     heard_us = steady_us();
     return heard_us;
   }
 
-  /// The plan, or a result in its place: a refusal needs no plan.
-  std::optional<cairn_lcm::plan_t> take_answer() {
-    if (!plan && result) {
-      plan.emplace();
-      plan->result = *result;
+  /// The answer, or a result in its place: a refusal carries no data.
+  template <typename Answer>
+  std::optional<Answer> take_answer() {
+    auto& answer = std::get<std::optional<Answer>>(answers);
+    if (!answer && result) {
+      answer.emplace();
+      answer->result = *result;
     }
     result.reset();
-    return std::exchange(plan, std::nullopt);
+    return std::exchange(answer, std::nullopt);
+  }
+
+  template <typename Answer>
+  void listen(wire::Bus& bus, const std::string& channel) {
+    clients::subscribe<Answer>(bus, channel, [this](const Answer& answer) {
+      if (answer.result.header.client_id == client_id) {
+        heard_us = steady_us();
+        std::get<std::optional<Answer>>(answers) = answer;
+      }
+    });
   }
 };
 
@@ -113,13 +129,9 @@ void DaemonLink::subscribe() {
       inbox->result = result;
     }
   });
-  clients::subscribe<cairn_lcm::plan_t>(*bus_, "CAIRN_PLAN",
-                                        [inbox](const cairn_lcm::plan_t& plan) {
-                                          if (plan.result.header.client_id == inbox->client_id) {
-                                            inbox->heard_us = steady_us();
-                                            inbox->plan = plan;
-                                          }
-                                        });
+  inbox->listen<cairn_lcm::plan_t>(*bus_, "CAIRN_PLAN");
+  inbox->listen<cairn_lcm::assertion_report_t>(*bus_, "CAIRN_ASSERTION");
+  inbox->listen<cairn_lcm::explanation_t>(*bus_, "CAIRN_EXPLANATION");
   clients::subscribe<cairn_lcm::snapshot_chunk_t>(
       *bus_, "CAIRN_SNAPSHOT", [inbox](const cairn_lcm::snapshot_chunk_t& chunk) {
         if (inbox->fetch != nullptr) {
@@ -227,8 +239,12 @@ cairn_lcm::trajectory_t DaemonLink::trajectory() {
   return document<cairn_lcm::trajectory_t>(Request::TRAJECTORY, "trajectory");
 }
 
-template <typename Request>
-cairn_lcm::plan_t DaemonLink::ask(const std::string& channel, Request request) {
+cairn_lcm::assertions_t DaemonLink::assertions() {
+  return document<cairn_lcm::assertions_t>(Request::ASSERTIONS, "list of assertions");
+}
+
+template <typename Answer, typename Request>
+Answer DaemonLink::ask(const std::string& channel, Request request) {
   request.header.client_id = random_client_id();
   request.header.request_id = 1;
   inbox_->begin(request.header.client_id);
@@ -244,7 +260,7 @@ cairn_lcm::plan_t DaemonLink::ask(const std::string& channel, Request request) {
       throw no_daemon();
     }
     handle(kTick);
-    const std::optional<cairn_lcm::plan_t> answer = inbox_->take_answer();
+    const std::optional<Answer> answer = inbox_->take_answer<Answer>();
     if (!answer) {
       continue;
     }
@@ -259,14 +275,22 @@ cairn_lcm::plan_t DaemonLink::ask(const std::string& channel, Request request) {
 }
 
 cairn_lcm::plan_t DaemonLink::plan(cairn_lcm::plan_request_t request) {
-  return ask("CAIRN_REQUEST_PLAN", std::move(request));
+  return ask<cairn_lcm::plan_t>("CAIRN_REQUEST_PLAN", std::move(request));
 }
 
 result_t DaemonLink::name_place(std::int64_t place, const std::string& name) {
   cairn_lcm::name_request_t request{};
   request.place = place;
   request.name = name;
-  return ask("CAIRN_REQUEST_NAME", std::move(request)).result;
+  return ask<cairn_lcm::plan_t>("CAIRN_REQUEST_NAME", std::move(request)).result;
+}
+
+cairn_lcm::assertion_report_t DaemonLink::say(cairn_lcm::assert_request_t request) {
+  return ask<cairn_lcm::assertion_report_t>("CAIRN_REQUEST_ASSERT", std::move(request));
+}
+
+cairn_lcm::explanation_t DaemonLink::explain(cairn_lcm::explain_request_t request) {
+  return ask<cairn_lcm::explanation_t>("CAIRN_REQUEST_EXPLAIN", request);
 }
 
 }  // namespace cairn::clients

@@ -6,6 +6,10 @@
 #include <memory>
 #include <string>
 
+#include <cairn_lcm/assert_request_t.hpp>
+#include <cairn_lcm/assertion_report_t.hpp>
+#include <cairn_lcm/explain_request_t.hpp>
+#include <cairn_lcm/explanation_t.hpp>
 #include <cairn_lcm/name_request_t.hpp>
 #include <cairn_lcm/plan_request_t.hpp>
 #include <cairn_lcm/plan_t.hpp>
@@ -42,6 +46,7 @@ class DaemonLink final : public MapSource {
   [[nodiscard]] cairn_lcm::hypotheses_t hypotheses() override;
   [[nodiscard]] cairn_lcm::grid_map_t global_map() override;
   [[nodiscard]] cairn_lcm::trajectory_t trajectory() override;
+  [[nodiscard]] cairn_lcm::assertions_t assertions() override;
 
   /// The next heartbeat.
   [[nodiscard]] cairn_lcm::status_t status();
@@ -49,6 +54,10 @@ class DaemonLink final : public MapSource {
   [[nodiscard]] cairn_lcm::plan_t plan(cairn_lcm::plan_request_t request);
   /// Gives a place a name; an empty one takes it away.
   [[nodiscard]] cairn_lcm::result_t name_place(std::int64_t place, const std::string& name);
+
+  /// Says that places are one or are not, or takes it back. What it did, or why it was not done.
+  [[nodiscard]] cairn_lcm::assertion_report_t say(cairn_lcm::assert_request_t request);
+  [[nodiscard]] cairn_lcm::explanation_t explain(cairn_lcm::explain_request_t request);
 
   [[nodiscard]] wire::Bus& bus() { return *bus_; }
   /// Serves the bus for at most that long. Throws Failure(kNoService) when the bus is gone.
@@ -62,8 +71,9 @@ class DaemonLink final : public MapSource {
   void subscribe();
   [[nodiscard]] std::vector<std::uint8_t> fetch(std::int32_t what, const char* name);
   void wait_for(wire::DocumentFetch& fetch, const char* name);
-  template <typename Request>
-  [[nodiscard]] cairn_lcm::plan_t ask(const std::string& channel, Request request);
+  /// Asks until there is an answer, and waits for as long as the daemon works on it.
+  template <typename Answer, typename Request>
+  [[nodiscard]] Answer ask(const std::string& channel, Request request);
   template <typename Message>
   [[nodiscard]] Message document(std::int32_t what, const char* name);
 

@@ -97,10 +97,12 @@ Json to_json(const cairn_lcm::status_t& status) {
                {"num_places", status.num_places},
                {"num_visits", status.num_visits},
                {"num_hypotheses", status.num_hypotheses},
+               {"num_waiting", status.num_waiting},
                {"best_probability", number(status.best_probability)},
                {"is_localized", status.is_localized != 0},
                {"is_guarantee_kept", status.is_guarantee_kept != 0},
-               {"guarantee_given_up_at", status.guarantee_given_up_at}};
+               {"guarantee_given_up_at", status.guarantee_given_up_at},
+               {"blamed", status.blamed}};
   json.update(counters_of(status));
   return json;
 }
@@ -132,9 +134,11 @@ Json to_json(const cairn_lcm::hypotheses_t& hypotheses) {
                {"revision", hypotheses.revision},
                {"num_visits", hypotheses.num_visits},
                {"num_live", hypotheses.num_live},
+               {"num_waiting", hypotheses.num_waiting},
                {"num_refuted", hypotheses.num_refuted},
                {"guarantee_given_up_at", hypotheses.guarantee_given_up_at},
                {"guarantee_reason", hypotheses.guarantee_reason},
+               {"blamed", hypotheses.blamed},
                {"hypotheses", Json::array()}};
   for (std::size_t i = 0; i < hypotheses.id.size(); ++i) {
     json["hypotheses"].push_back({{"id", hypotheses.id[i]},
@@ -191,6 +195,83 @@ Json to_json(const cairn_lcm::plan_t& plan) {
     json["poses"].push_back({{"x_m", number(plan.x_m[i])},
                              {"y_m", number(plan.y_m[i])},
                              {"theta_rad", number(plan.theta_rad[i])}});
+  }
+  return json;
+}
+
+Json to_json(const cairn_lcm::assertion_report_t& report) {
+  Json json = {{"map_id", report.map_id},
+               {"assertion", report.assertion},
+               {"hypothesis_id", report.hypothesis_id},
+               {"before_log_posterior", number(report.before_log_posterior)},
+               {"after_log_posterior", number(report.after_log_posterior)},
+               {"sentence", report.sentence},
+               {"num_moved", report.num_moved},
+               {"moved", Json::array()}};
+  for (std::size_t i = 0; i < report.visit.size(); ++i) {
+    json["moved"].push_back({{"visit", report.visit[i]},
+                             {"known_since_before", report.known_since_before[i]},
+                             {"known_since_after", report.known_since_after[i]},
+                             {"place", report.place[i]}});
+  }
+  return json;
+}
+
+Json to_json(const cairn_lcm::assertions_t& assertions) {
+  Json json = {{"map_id", assertions.map_id},
+               {"revision", assertions.revision},
+               {"assertions", Json::array()}};
+  for (const cairn_lcm::assertion_t& one : assertions.assertions) {
+    json["assertions"].push_back({{"number", one.number},
+                                  {"is_same", one.is_same != 0},
+                                  {"visit_a", one.visit_a},
+                                  {"visit_b", one.visit_b},
+                                  {"place_a", one.place_a},
+                                  {"place_b", one.place_b},
+                                  {"is_in_force", one.is_in_force != 0},
+                                  {"who", one.who},
+                                  {"made_utime", one.made_utime},
+                                  {"made_after_visits", one.made_after_visits},
+                                  {"effect", one.effect},
+                                  {"retracted_by", one.retracted_by},
+                                  {"retracted_utime", one.retracted_utime},
+                                  {"retracted_after_visits", one.retracted_after_visits},
+                                  {"retraction_effect", one.retraction_effect}});
+  }
+  return json;
+}
+
+Json to_json(const cairn_lcm::explained_step_t& step) {
+  Json json = {{"visit", step.visit},
+               {"hypothesis_id", step.hypothesis_id},
+               {"at_place", step.at_place},
+               {"kind", step.kind_name},
+               {"is_taken", step.is_taken != 0},
+               {"refuted_by", step.refuted_by},
+               {"from_place", step.from_place},
+               {"from_gateway", step.from_gateway},
+               {"to_place", step.to_place},
+               {"to_gateway", step.to_gateway},
+               {"log_likelihood", number(step.log_likelihood)},
+               {"sentence", step.sentence}};
+  if (step.is_fate_known != 0) {
+    json["fate"] = {{"visit", step.fate_visit},
+                    {"is_refuted", !std::isfinite(step.fate_log_odds)},
+                    {"log_odds", number(step.fate_log_odds)}};
+  }
+  return json;
+}
+
+Json to_json(const cairn_lcm::explanation_t& explanation) {
+  Json json = {{"map_id", explanation.map_id},
+               {"hypothesis_id", explanation.hypothesis_id},
+               {"visit", explanation.visit},
+               {"log_odds", number(explanation.log_odds)},
+               {"sentence", explanation.sentence},
+               {"num_left_out", explanation.num_left_out},
+               {"steps", Json::array()}};
+  for (const cairn_lcm::explained_step_t& step : explanation.steps) {
+    json["steps"].push_back(to_json(step));
   }
   return json;
 }

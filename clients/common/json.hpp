@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cairn_lcm/assertion_report_t.hpp>
+#include <cairn_lcm/assertions_t.hpp>
+#include <cairn_lcm/explanation_t.hpp>
 #include <cairn_lcm/hypotheses_t.hpp>
 #include <cairn_lcm/place_event_t.hpp>
 #include <cairn_lcm/plan_t.hpp>
@@ -17,6 +20,10 @@ namespace cairn::clients {
 [[nodiscard]] nlohmann::ordered_json to_json(const cairn_lcm::place_event_t& event);
 [[nodiscard]] nlohmann::ordered_json to_json(const cairn_lcm::pose_t& pose);
 [[nodiscard]] nlohmann::ordered_json to_json(const cairn_lcm::plan_t& plan);
+[[nodiscard]] nlohmann::ordered_json to_json(const cairn_lcm::assertion_report_t& report);
+[[nodiscard]] nlohmann::ordered_json to_json(const cairn_lcm::assertions_t& assertions);
+[[nodiscard]] nlohmann::ordered_json to_json(const cairn_lcm::explained_step_t& step);
+[[nodiscard]] nlohmann::ordered_json to_json(const cairn_lcm::explanation_t& explanation);
 
 /// As text with two spaces of indent; bytes that are no UTF-8 are replaced.
 [[nodiscard]] std::string dumped(const nlohmann::ordered_json& json);

@@ -158,6 +158,48 @@ std::int64_t MapFile::row_count(const std::string& table) const {
   return next_row(database_.get(), path_, count.get()) ? sqlite3_column_int64(count.get(), 0) : 0;
 }
 
+cairn_lcm::assertions_t MapFile::assertions() {
+  cairn_lcm::assertions_t all{};
+  if (row_count("assertion") < 0) {
+    return all;  // A map from before there were assertions.
+  }
+  const Statement rows =
+      prepare(database_.get(), path_,
+              "SELECT kind, who, utime, after_visit, visit_a, visit_b, assertion "
+              "FROM assertion ORDER BY step");
+  const auto integer = [&](int column) { return sqlite3_column_int64(rows.get(), column); };
+  while (next_row(database_.get(), path_, rows.get())) {
+    const std::string kind = column_text(rows.get(), 0);
+    if (kind == "retract") {
+      const std::int64_t number = integer(6);
+      if (number < 1 || number > static_cast<std::int64_t>(all.assertions.size())) {
+        throw unreadable(
+            path_, "takes back assertion " + std::to_string(number) + ", which was never made");
+      }
+      cairn_lcm::assertion_t& assertion = all.assertions[static_cast<std::size_t>(number) - 1];
+      assertion.is_in_force = 0;
+      assertion.retracted_by = column_text(rows.get(), 1);
+      assertion.retracted_utime = integer(2);
+      assertion.retracted_after_visits = integer(3);
+      continue;
+    }
+    cairn_lcm::assertion_t assertion{};
+    assertion.number = static_cast<std::int64_t>(all.assertions.size()) + 1;
+    assertion.is_same = kind == "same" ? 1 : 0;
+    assertion.visit_a = integer(4);
+    assertion.visit_b = integer(5);
+    assertion.place_a = assertion.place_b = -1;
+    assertion.is_in_force = 1;
+    assertion.who = column_text(rows.get(), 1);
+    assertion.made_utime = integer(2);
+    assertion.made_after_visits = integer(3);
+    assertion.retracted_after_visits = -1;
+    all.assertions.push_back(std::move(assertion));
+  }
+  all.num_assertions = static_cast<std::int32_t>(all.assertions.size());
+  return all;
+}
+
 std::vector<std::uint8_t> MapFile::document_bytes(std::int32_t what) const {
   const Statement row =
       prepare(database_.get(), path_, "SELECT bytes FROM document WHERE what = ?");

@@ -30,6 +30,8 @@ class MapFile final : public MapSource {
   [[nodiscard]] cairn_lcm::hypotheses_t hypotheses() override;
   [[nodiscard]] cairn_lcm::grid_map_t global_map() override;
   [[nodiscard]] cairn_lcm::trajectory_t trajectory() override;
+  /// From the journal, so none is missing that was acknowledged. What each did is not in the file.
+  [[nodiscard]] cairn_lcm::assertions_t assertions() override;
 
   /// The table `meta`.
   [[nodiscard]] const std::map<std::string, std::string>& meta() const { return meta_; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cairn_lcm/assertions_t.hpp>
 #include <cairn_lcm/grid_map_t.hpp>
 #include <cairn_lcm/hypotheses_t.hpp>
 #include <cairn_lcm/topology_t.hpp>
@@ -23,6 +24,7 @@ class MapSource {
   [[nodiscard]] virtual cairn_lcm::hypotheses_t hypotheses() = 0;
   [[nodiscard]] virtual cairn_lcm::grid_map_t global_map() = 0;
   [[nodiscard]] virtual cairn_lcm::trajectory_t trajectory() = 0;
+  [[nodiscard]] virtual cairn_lcm::assertions_t assertions() = 0;
 };
 
 }  // namespace cairn::clients

@@ -91,7 +91,7 @@ class Daemon {
             bus,
             new_boot_id(),
             [this](const cairn_lcm::plan_request_t& request) { return order_plan(request); },
-            [this](const cairn_lcm::name_request_t& request) { mapping_.name(request); }),
+            [this](MapRequest request) { mapping_.ask(std::move(request)); }),
         inlets_(to_inlet_options(options),
                 {[this](LaserScan scan) { take(std::move(scan)); },
                  [this](OdometrySample sample) { take(sample); }, [](const SonarRing&) {}}) {}
@@ -170,6 +170,7 @@ class Daemon {
         newest_ = report->state;
       }
       log_extensions(*report);
+      log_assertion(*report);
     }
     order_drawing();
   }
@@ -202,6 +203,20 @@ class Daemon {
                      extension.guarantee_given_up->reason);
       }
     }
+  }
+
+  static void log_assertion(const MappingReport& report) {
+    const auto* const assertion =
+        report.answer ? std::get_if<cairn_lcm::assertion_report_t>(&*report.answer) : nullptr;
+    if (assertion == nullptr || assertion->result.code != cairn_lcm::result_t::OK ||
+        report.state == nullptr) {
+      return;  // Refused, or carried out before.
+    }
+    const auto index = static_cast<std::size_t>(assertion->assertion) - 1;
+    const OperatorAssertion& said = report.state->assertions.at(index).said;
+    const std::string by =
+        said.retracted_after_visits ? "taken back by " + said.retracted_by : "by " + said.who;
+    spdlog::info("assertion {} {}: {}", said.number, by, assertion->sentence);
   }
 
   /// One drawing is under way at a time; the newest state is drawn next. What was drawn is stored

@@ -13,6 +13,12 @@ namespace {
 constexpr std::size_t kMaxWaiting = 36'000;
 constexpr std::size_t kCommitAfter = 2'000;
 
+bool is_text_up_to_64_bytes(const std::string& text) {
+  return text.size() <= 64 && std::none_of(text.begin(), text.end(), [](char c) {
+           return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
+         });
+}
+
 }  // namespace
 
 Engine::Engine(const ServiceOptions& options, MapFile map_file)
@@ -35,8 +41,12 @@ Result<std::unique_ptr<Engine>> Engine::open(const ServiceOptions& options,
 
 Status Engine::recall() {
   Status status =
-      map_file_.read_journal([this](PerceivedScan scan) { service_->recall(std::move(scan)); },
-                             [this](Visit visit) { return service_->recall(std::move(visit)); });
+      map_file_.read_journal({[this](PerceivedScan scan) { service_->recall(std::move(scan)); },
+                              [this](Visit visit) { return service_->recall(std::move(visit)); },
+                              [this](const OperatorOrder& order) -> Status {
+                                const Result<AssertionReport> report = carry_out(order);
+                                return report ? Status() : report.error();
+                              }});
   if (!status) {
     return status;
   }
@@ -54,10 +64,7 @@ Status Engine::recall() {
 }
 
 Status Engine::name_place(std::int64_t place, const std::string& name) {
-  const bool is_text = name.size() <= 64 && std::none_of(name.begin(), name.end(), [](char c) {
-                         return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
-                       });
-  if (!is_text) {
+  if (!is_text_up_to_64_bytes(name)) {
     return Error{ErrorCode::kInvalidValue, "a name has at most 64 bytes and no control characters"};
   }
   const std::shared_ptr<const MapState> state = service_->state();
@@ -82,6 +89,48 @@ Status Engine::name_place(std::int64_t place, const std::string& name) {
   }
   service_->name_place_of(*visit, name);
   return {};
+}
+
+Result<AssertionReport> Engine::take(const OperatorOrder& order) {
+  const auto done = orders_done_.find({order.client_id, order.request_id});
+  if (done != orders_done_.end()) {
+    return done->second;
+  }
+  if (const Status status = check(order); !status) {
+    return status.error();
+  }
+  commit();
+  if (!journal_trouble_.empty()) {
+    return Error{ErrorCode::kUnavailable, "the map file cannot be written: " + journal_trouble_};
+  }
+  if (const Status status = map_file_.write_order(order); !status) {
+    map_file_.roll_back();
+    return status.error();
+  }
+  return carry_out(order);
+}
+
+Status Engine::check(const OperatorOrder& order) const {
+  if (order.by.who.empty() || !is_text_up_to_64_bytes(order.by.who)) {
+    return Error{ErrorCode::kInvalidValue,
+                 "who says so: expected 1 to 64 bytes without control characters"};
+  }
+  const HypothesisTree& tree = service_->tree();
+  return order.kind == OperatorOrder::Kind::kRetract
+             ? tree.check_retraction(order.assertion)
+             : tree.check_places(order.a, order.b, order.kind == OperatorOrder::Kind::kSame);
+}
+
+Result<AssertionReport> Engine::carry_out(const OperatorOrder& order) {
+  Result<AssertionReport> report =
+      order.kind == OperatorOrder::Kind::kRetract
+          ? service_->retract(order.assertion, order.by)
+          : service_->assert_places(order.a, order.b, order.kind == OperatorOrder::Kind::kSame,
+                                    order.by);
+  if (report) {
+    orders_done_[{order.client_id, order.request_id}] = *report;
+  }
+  return report;
 }
 
 Updates Engine::take(SensorReading reading) {

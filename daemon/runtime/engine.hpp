@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -37,6 +39,11 @@ class Engine {
   /// 1 to 64 bytes of text or is taken, kNotFound for a place that is not there.
   Status name_place(std::int64_t place, const std::string& name);
 
+  /// Carries out what an operator asks for, on the disk first; an order that was carried out
+  /// before, even by an earlier process, is answered alike and does nothing. Errors as of
+  /// MappingService::assert_places and retract; kInvalidValue for a name of nobody.
+  Result<AssertionReport> take(const OperatorOrder& order);
+
   /// Puts on the disk what is not there yet.
   void commit();
   void store(const Documents& documents);
@@ -55,6 +62,8 @@ class Engine {
  private:
   explicit Engine(const ServiceOptions& options, MapFile map_file);
   Status recall();
+  [[nodiscard]] Status check(const OperatorOrder& order) const;
+  Result<AssertionReport> carry_out(const OperatorOrder& order);
   void journal(const Updates& updates);
   void write_waiting(bool commit);
   void bound_waiting();
@@ -64,6 +73,8 @@ class Engine {
   std::unique_ptr<MappingService> service_;
   std::vector<std::variant<PerceivedScan, Visit>> waiting_;  ///< Not committed yet, in order.
   std::size_t appended_ = 0;  ///< Of these, how many the open transaction holds.
+  /// By client and request.
+  std::map<std::pair<std::int64_t, std::int32_t>, AssertionReport> orders_done_;
   std::string journal_trouble_;
   bool is_journal_closed_ = false;  ///< For this run: the disk stayed full for too long.
   double journal_seconds_ = 0.0;

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "runtime/operator_desk.hpp"
 #include "runtime/planner.hpp"
 
 namespace cairn {
@@ -45,7 +46,7 @@ void MappingThread::run() {
     if (std::optional<Order> order = orders_.pop_within(std::chrono::seconds(1))) {
       if (auto* const documents = std::get_if<Documents>(&*order)) {
         engine_->store(*documents);
-      } else if (auto* const request = std::get_if<cairn_lcm::name_request_t>(&*order)) {
+      } else if (auto* const request = std::get_if<MapRequest>(&*order)) {
         carry_out(*request);
       } else {
         carry_out(std::get<SensorReading>(*std::move(order)));
@@ -78,18 +79,32 @@ void MappingThread::carry_out(SensorReading reading) {
   }
 }
 
-void MappingThread::carry_out(const cairn_lcm::name_request_t& request) {
-  const Status status = engine_->name_place(request.place, request.name);
+void MappingThread::carry_out(const MapRequest& request) {
+  const std::int64_t revision = engine_->service().revision();
   MappingReport report;
+  report.answer = std::visit([this](const auto& one) { return answered(one); }, request);
   report.map_id = engine_->map_id();
   report.joiner = engine_->service().joiner_counters();
   report.journal_trouble = engine_->journal_trouble();
-  report.answer = to_result(request.header, status);
-  if (status) {
+  if (engine_->service().revision() != revision) {
     report.state = engine_->service().state();
   }
   reports_.push(std::move(report));
   wakeup_.signal();
+}
+
+MapAnswer MappingThread::answered(const cairn_lcm::name_request_t& request) {
+  return to_result(request.header, engine_->name_place(request.place, request.name));
+}
+
+MapAnswer MappingThread::answered(const cairn_lcm::assert_request_t& request) {
+  const auto now =
+      std::chrono::time_point_cast<std::chrono::microseconds>(std::chrono::system_clock::now());
+  return answer(request, now, engine_.get());
+}
+
+MapAnswer MappingThread::answered(const cairn_lcm::explain_request_t& request) {
+  return answer(request, *engine_);
 }
 
 void MappingThread::commit_when_due() {

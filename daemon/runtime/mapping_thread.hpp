@@ -9,6 +9,10 @@
 #include <variant>
 #include <vector>
 
+#include <cairn_lcm/assert_request_t.hpp>
+#include <cairn_lcm/assertion_report_t.hpp>
+#include <cairn_lcm/explain_request_t.hpp>
+#include <cairn_lcm/explanation_t.hpp>
 #include <cairn_lcm/name_request_t.hpp>
 #include <cairn_lcm/result_t.hpp>
 
@@ -24,6 +28,12 @@ struct MappedFix {
   GaussianPose T_global_robot;
 };
 
+/// What clients ask of whoever owns the map, and what they are answered.
+using MapRequest = std::
+    variant<cairn_lcm::name_request_t, cairn_lcm::assert_request_t, cairn_lcm::explain_request_t>;
+using MapAnswer =
+    std::variant<cairn_lcm::result_t, cairn_lcm::assertion_report_t, cairn_lcm::explanation_t>;
+
 /// What the mapping thread makes known to the event loop; journalled before it is handed out.
 struct MappingReport {
   std::vector<MappedFix> fixes;
@@ -33,8 +43,8 @@ struct MappingReport {
   std::shared_ptr<const wire::ReplicatedGrid> local_map;  ///< Comes with a state.
   std::int64_t map_id = 0;
   JoinerCounters joiner;
-  std::optional<cairn_lcm::result_t> answer;  ///< To a request to name a place.
-  double update_ms = 0.0;                     ///< To take the reading in.
+  std::optional<MapAnswer> answer;
+  double update_ms = 0.0;  ///< To take the reading in.
   std::string journal_trouble;
 };
 
@@ -59,7 +69,7 @@ class MappingThread {
   MappingThread& operator=(MappingThread&&) = delete;
 
   void take(SensorReading reading) { orders_.push(std::move(reading)); }
-  void name(cairn_lcm::name_request_t request) { orders_.push(std::move(request)); }
+  void ask(MapRequest request) { orders_.push(std::move(request)); }
   void store(Documents documents) { orders_.push(std::move(documents)); }
   [[nodiscard]] std::optional<MappingReport> next_report() { return reports_.try_pop(); }
 
@@ -73,10 +83,13 @@ class MappingThread {
   std::unique_ptr<Engine> stop();
 
  private:
-  using Order = std::variant<SensorReading, Documents, cairn_lcm::name_request_t>;
+  using Order = std::variant<SensorReading, Documents, MapRequest>;
   void run();
   void carry_out(SensorReading reading);
-  void carry_out(const cairn_lcm::name_request_t& request);
+  void carry_out(const MapRequest& request);
+  MapAnswer answered(const cairn_lcm::name_request_t& request);
+  MapAnswer answered(const cairn_lcm::assert_request_t& request);
+  MapAnswer answered(const cairn_lcm::explain_request_t& request);
   void finish_pause();
   void commit_when_due();
   void report(const Updates& updates, double update_ms);

@@ -35,6 +35,7 @@ const char* name_of(std::int32_t code) {
 std::int32_t code_of(const Error& error) {
   switch (error.code) {
     case ErrorCode::kInvalidValue:
+    case ErrorCode::kContradiction:
       return Code::BAD_REQUEST;
     case ErrorCode::kNotFound:
       return Code::NOT_FOUND;

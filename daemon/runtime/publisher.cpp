@@ -14,7 +14,23 @@ using What = cairn_lcm::snapshot_request_t;
 using Code = cairn_lcm::result_t;
 
 constexpr std::size_t kMaxRequestBytes = 16 * 1024;
+constexpr std::size_t kMostUnderWay = 256;
+constexpr std::int64_t kLost_us = 60'000'000;  ///< What is under way for longer is asked for anew.
 constexpr std::size_t kMaxTopologyBytes = 60'000;  ///< Larger messages may not arrive in one piece.
+
+struct Addressed {
+  const char* channel;
+  cairn_lcm::result_t* result;
+};
+Addressed addressed(cairn_lcm::result_t& answer) {
+  return {"CAIRN_RESULT", &answer};
+}
+Addressed addressed(cairn_lcm::assertion_report_t& answer) {
+  return {"CAIRN_ASSERTION", &answer.result};
+}
+Addressed addressed(cairn_lcm::explanation_t& answer) {
+  return {"CAIRN_EXPLANATION", &answer.result};
+}
 
 }  // namespace
 
@@ -33,11 +49,11 @@ std::int64_t steady_us() {
 Publisher::Publisher(wire::Bus& bus,
                      std::int64_t boot_id,
                      OrderPlan order_plan,
-                     OrderName order_name)
+                     OrderMapping order_mapping)
     : bus_(bus),
       boot_id_(boot_id),
       order_plan_(std::move(order_plan)),
-      order_name_(std::move(order_name)),
+      order_mapping_(std::move(order_mapping)),
       replication_(
           boot_id,
           [this](const cairn_lcm::snapshot_chunk_t& chunk) {
@@ -59,6 +75,7 @@ Publisher::Publisher(wire::Bus& bus,
   serve(What::TOPOLOGY, to_topology);
   serve(What::HYPOTHESES, to_hypotheses);
   serve(What::TRAJECTORY, to_trajectory);
+  serve(What::ASSERTIONS, to_assertions);
 }
 
 template <class Request>
@@ -75,7 +92,10 @@ bool Publisher::listen(const std::string& channel, void (Publisher::*handle)(con
 
 bool Publisher::subscribe() {
   return listen("CAIRN_REQUEST_PLAN", &Publisher::on_plan) &&
-         listen("CAIRN_REQUEST_NAME", &Publisher::on_name) &&
+         listen("CAIRN_REQUEST_NAME", &Publisher::on_map_request<cairn_lcm::name_request_t>) &&
+         listen("CAIRN_REQUEST_ASSERT", &Publisher::on_map_request<cairn_lcm::assert_request_t>) &&
+         listen("CAIRN_REQUEST_EXPLAIN",
+                &Publisher::on_map_request<cairn_lcm::explain_request_t>) &&
          listen("CAIRN_REQUEST_SNAPSHOT", &Publisher::on_snapshot) &&
          listen("CAIRN_REQUEST_DELTA", &Publisher::on_delta) &&
          listen("CAIRN_REQUEST_EVENTS", &Publisher::on_events) &&
@@ -93,12 +113,7 @@ void Publisher::publish(const MappingReport& report) {
     publish_state(report.state);
   }
   if (report.answer) {
-    cairn_lcm::result_t result = *report.answer;
-    result.header.utime = wall_utime();
-    result.header.boot_id = boot_id_;
-    const wire::Bytes bytes = wire::encode(result);
-    results_.store(result.header.client_id, result.header.request_id, {"CAIRN_RESULT", bytes});
-    bus_.publish("CAIRN_RESULT", bytes);
+    publish(*report.answer);
   }
   for (const PlaceEvent& event : report.events) {
     for (const cairn_lcm::place_event_t& message : events_.note(event, state_.get())) {
@@ -110,11 +125,27 @@ void Publisher::publish(const MappingReport& report) {
   }
 }
 
+void Publisher::publish(const MapAnswer& answer) {
+  std::visit(
+      [this](auto message) {
+        const auto [channel, result] = addressed(message);
+        cairn_lcm::rpc_header_t& header = result->header;
+        header.utime = wall_utime();
+        header.boot_id = boot_id_;
+        under_way_us_.erase({header.client_id, header.request_id});
+        const wire::Bytes bytes = wire::encode(message);
+        results_.store(header.client_id, header.request_id, {channel, bytes});
+        bus_.publish(channel, bytes);
+      },
+      answer);
+}
+
 void Publisher::publish_state(const std::shared_ptr<const MapState>& state) {
   const std::shared_ptr<const MapState> before = std::exchange(state_, state);
   if (before != nullptr && before->topology_revision == state->topology_revision) {
     return;
   }
+  replication_.documents_changed();
   if (before != nullptr) {
     for (const cairn_lcm::place_event_t& event : events_.note(*before, *state)) {
       bus_.publish("CAIRN_PLACE_EVENT", event);
@@ -160,7 +191,7 @@ void Publisher::publish(const Drawing& drawing, const GlobalMapOptions& options)
 }
 
 void Publisher::publish(const cairn_lcm::plan_t& plan) {
-  plans_under_way_.erase({plan.result.header.client_id, plan.result.header.request_id});
+  under_way_us_.erase({plan.result.header.client_id, plan.result.header.request_id});
   const wire::Bytes bytes = wire::encode(plan);
   results_.store(plan.result.header.client_id, plan.result.header.request_id,
                  {"CAIRN_PLAN", bytes});
@@ -182,10 +213,12 @@ void Publisher::publish(cairn_lcm::status_t status) {
     status.num_places = static_cast<int>(state_->places.size());
     status.num_visits = static_cast<int>(state_->visit_count);
     status.num_hypotheses = static_cast<int>(state_->live_count);
+    status.num_waiting = state_->waiting_count;
     status.best_probability = state_->probability;
     status.is_localized = state_->hypothesis >= 0 ? 1 : 0;
     status.guarantee_given_up_at = state_->guarantee_given_up_at;
     status.is_guarantee_kept = state_->guarantee_given_up_at < 0 ? 1 : 0;
+    status.blamed = state_->blamed;
   }
   bus_.publish("CAIRN_STATUS", status);
 }
@@ -201,24 +234,38 @@ void Publisher::on_plan(const cairn_lcm::plan_request_t& request) {
     return;
   }
   const auto key = std::make_pair(header.client_id, header.request_id);
-  if (plans_under_way_.count(key) != 0) {
+  if (under_way_us_.count(key) != 0) {
     return;  // Asked again: the answer is on its way.
   }
   if (order_plan_(request)) {
-    plans_under_way_.insert(key);
+    under_way_us_[key] = steady_us();
   } else {
     // Not stored: the client is asked to come back.
     bus_.publish("CAIRN_PLAN", refusal(header, sender(), Code::BUSY, "too many plans are waiting"));
   }
 }
 
-void Publisher::on_name(const cairn_lcm::name_request_t& request) {
+/// Growing the tree anew may take longer than a client waits: asked again it hears that its request
+/// was taken up.
+template <class Request>
+void Publisher::on_map_request(const Request& request) {
   const cairn_lcm::rpc_header_t& header = request.header;
   if (const auto* const stored = results_.find(header.client_id, header.request_id)) {
     bus_.publish(stored->channel, stored->bytes);
     return;
   }
-  order_name_(request);
+  const auto key = std::make_pair(header.client_id, header.request_id);
+  if (under_way_us_.size() >= kMostUnderWay && under_way_us_.count(key) == 0) {
+    answer(header, Code::BUSY, "BUSY", "too many requests are waiting");
+    return;
+  }
+  const auto [since, is_new] = under_way_us_.try_emplace(key, steady_us());
+  if (!is_new && steady_us() - since->second < kLost_us) {
+    answer(header, Code::ACCEPTED, "ACCEPTED", "");
+    return;
+  }
+  since->second = steady_us();
+  order_mapping_(request);
 }
 
 void Publisher::answer(const cairn_lcm::rpc_header_t& request,

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -28,11 +28,11 @@ class Publisher {
  public:
   /// Takes a plan request to the solver. @return false where too many wait already
   using OrderPlan = std::function<bool(const cairn_lcm::plan_request_t&)>;
-  /// Takes a request to name a place to the mapping thread.
-  using OrderName = std::function<void(const cairn_lcm::name_request_t&)>;
+  /// Takes a request to the mapping thread.
+  using OrderMapping = std::function<void(MapRequest)>;
 
   /// @param bus must outlive this object
-  Publisher(wire::Bus& bus, std::int64_t boot_id, OrderPlan order_plan, OrderName order_name);
+  Publisher(wire::Bus& bus, std::int64_t boot_id, OrderPlan order_plan, OrderMapping order_mapping);
 
   /// Listens to requests and to the status of other daemons.
   /// @return false where LCM refuses
@@ -60,7 +60,9 @@ class Publisher {
   template <class Request>
   bool listen(const std::string& channel, void (Publisher::*handle)(const Request&));
   void on_plan(const cairn_lcm::plan_request_t& request);
-  void on_name(const cairn_lcm::name_request_t& request);
+  template <class Request>
+  void on_map_request(const Request& request);
+  void publish(const MapAnswer& answer);
   void on_snapshot(const cairn_lcm::snapshot_request_t& request);
   void on_delta(const cairn_lcm::delta_request_t& request);
   void on_events(const cairn_lcm::event_request_t& request);
@@ -76,10 +78,11 @@ class Publisher {
   std::int64_t boot_id_;
   std::int64_t map_id_ = 0;
   OrderPlan order_plan_;
-  OrderName order_name_;
+  OrderMapping order_mapping_;
   wire::ReplicationServer replication_;
   wire::ResultCache results_;
-  std::set<std::pair<std::int64_t, std::int32_t>> plans_under_way_;  ///< By client and request.
+  /// By client and request: since when.
+  std::map<std::pair<std::int64_t, std::int32_t>, std::int64_t> under_way_us_;
   EventBook events_;
   std::shared_ptr<const MapState> state_;
   std::int64_t foreign_daemons_ = 0;

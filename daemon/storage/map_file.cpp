@@ -14,14 +14,15 @@ constexpr const char* kSchema = R"(
   CREATE TABLE IF NOT EXISTS visit(number INTEGER PRIMARY KEY, after_scan INTEGER NOT NULL,
                                    bytes BLOB NOT NULL);
   CREATE TABLE IF NOT EXISTS name(place_visit INTEGER PRIMARY KEY, name TEXT NOT NULL);
+  CREATE TABLE IF NOT EXISTS assertion(step INTEGER PRIMARY KEY, after_scan INTEGER NOT NULL,
+                                       after_visit INTEGER NOT NULL, utime INTEGER NOT NULL,
+                                       who TEXT NOT NULL, kind TEXT NOT NULL,
+                                       visit_a INTEGER NOT NULL, visit_b INTEGER NOT NULL,
+                                       assertion INTEGER NOT NULL, client_id INTEGER NOT NULL,
+                                       request_id INTEGER NOT NULL);
   CREATE TABLE IF NOT EXISTS document(what INTEGER PRIMARY KEY, revision INTEGER NOT NULL,
                                       bytes BLOB NOT NULL);
 )";
-
-Error error_in(const std::string& table, std::int64_t number, const std::string& why) {
-  return {ErrorCode::kMalformed,
-          "map file: " + table + " " + std::to_string(number) + " is damaged: " + why};
-}
 
 }  // namespace
 
@@ -220,57 +221,6 @@ Status MapFile::write_document(int what,
     return status;
   }
   return replace_document_.bind(0, std::int64_t{what}).bind(1, revision).bind(2, bytes).run();
-}
-
-Status MapFile::read_journal(const std::function<void(PerceivedScan)>& take_scan,
-                             const std::function<Status(Visit)>& take_visit) {
-  Result<Statement> scans = database_.prepare("SELECT number, bytes FROM scan ORDER BY number");
-  Result<Statement> visits =
-      database_.prepare("SELECT number, after_scan, bytes FROM visit ORDER BY number");
-  if (!scans || !visits) {
-    return !scans ? scans.error() : visits.error();
-  }
-  std::int64_t scans_read = 0;
-  const auto read_scan = [&]() -> Status {
-    const Result<bool> row = scans->step();
-    if (!row) {
-      return row.error();
-    }
-    if (!*row || scans->integer(0) != scans_read) {
-      return error_in("scan", scans_read, "the row is missing");
-    }
-    Result<PerceivedScan> scan = scan_of_row(scans->bytes(1));
-    if (!scan) {
-      return error_in("scan", scans_read, scan.error().message);
-    }
-    take_scan(*std::move(scan));
-    ++scans_read;
-    return {};
-  };
-  for (std::int64_t number = 0; number < visit_count_; ++number) {
-    const Result<bool> row = visits->step();
-    if (!row || !*row) {
-      return error_in("visit", number, "the row is missing");
-    }
-    while (scans_read < visits->integer(1)) {
-      if (Status status = read_scan(); !status) {
-        return status;
-      }
-    }
-    Result<Visit> visit = visit_of_row(visits->bytes(2));
-    if (!visit) {
-      return error_in("visit", number, visit.error().message);
-    }
-    if (const Status taken = take_visit(*std::move(visit)); !taken) {
-      return error_in("visit", number, taken.error().message);
-    }
-  }
-  while (scans_read < scan_count_) {
-    if (Status status = read_scan(); !status) {
-      return status;
-    }
-  }
-  return {};
 }
 
 Status MapFile::close() {

@@ -11,12 +11,14 @@
 #include "service/experience.hpp"
 #include "storage/database.hpp"
 #include "storage/file_lock.hpp"
+#include "storage/operator_order.hpp"
 
 namespace cairn {
 
 /// The map file: one SQLite file with the journal of experience (every perceived scan, every visit
-/// with its local perceptual map), what was last published of it (documents), names and the format
-/// version. Rows of the journal are cairn_journal messages, compressed with zstd.
+/// with its local perceptual map, every assertion of an operator), what was last published of it
+/// (documents), names and the format version. Scans and visits are cairn_journal messages,
+/// compressed with zstd; assertions are plain columns, for whoever audits them with other tools.
 ///
 /// What has been committed survives kill -9, a full disk and a power cut (write-ahead log with full
 /// synchronisation). The same experience gives the same bytes.
@@ -42,13 +44,23 @@ class MapFile {
   /// Every name, by visit.
   [[nodiscard]] Result<std::map<std::int64_t, std::string>> read_names();
 
+  /// Takes an operator's order into the journal, behind the scans and visits appended so far. On
+  /// the disk, with these, when this returns.
+  Status write_order(const OperatorOrder& order);
+
   /// What was last published. @param what as in snapshot_request_t
   Status write_document(int what, std::int64_t revision, const std::vector<std::uint8_t>& bytes);
 
+  /// Who takes the journal up.
+  struct JournalReader {
+    std::function<void(PerceivedScan)> take_scan;
+    std::function<Status(Visit)> take_visit;
+    std::function<Status(const OperatorOrder&)> take_order;
+  };
   /// Gives the journal in the order in which it was written. A damaged row ends it, with an error
-  /// that names the row; what was read until then stands. A visit that is not accepted ends it too.
-  Status read_journal(const std::function<void(PerceivedScan)>& take_scan,
-                      const std::function<Status(Visit)>& take_visit);
+  /// that names the row; what was read until then stands. A visit or an order that is not accepted
+  /// ends it too.
+  Status read_journal(const JournalReader& reader);
 
   /// Names this map for clients: the time of the first scan; 0 before it.
   [[nodiscard]] std::int64_t map_id() const { return map_id_; }

@@ -106,9 +106,11 @@ cairn_lcm::hypotheses_t to_hypotheses(const MapState& state, const Sender& sende
   message.revision = state.topology_revision;
   message.num_visits = state.visit_count;
   message.num_live = state.live_count;
+  message.num_waiting = state.waiting_count;
   message.num_refuted = state.refuted_count;
   message.guarantee_given_up_at = state.guarantee_given_up_at;
   message.guarantee_reason = state.guarantee_reason;
+  message.blamed = state.blamed;
   for (const HypothesisSummary& one : state.hypotheses) {
     message.id.push_back(one.id);
     message.parent_id.push_back(one.parent);
@@ -120,6 +122,38 @@ cairn_lcm::hypotheses_t to_hypotheses(const MapState& state, const Sender& sende
     message.num_pending.push_back(one.pending);
   }
   message.num_hypotheses = count_of(message.id.size());
+  return message;
+}
+
+cairn_lcm::assertions_t to_assertions(const MapState& state, const Sender& sender) {
+  const auto place_of = [&state](VisitId visit) {
+    return visit.index() < state.place_of_visit.size() ? state.place_of_visit[visit.index()] : -1;
+  };
+  cairn_lcm::assertions_t message{};
+  message.utime = utime_of(state.time);
+  message.boot_id = sender.boot_id;
+  message.map_id = sender.map_id;
+  message.revision = state.topology_revision;
+  for (const AuditedAssertion& one : state.assertions) {
+    cairn_lcm::assertion_t assertion{};
+    assertion.number = one.said.number;
+    assertion.is_same = one.said.is_same ? 1 : 0;
+    assertion.visit_a = one.said.a.value;
+    assertion.visit_b = one.said.b.value;
+    assertion.place_a = place_of(one.said.a);
+    assertion.place_b = place_of(one.said.b);
+    assertion.is_in_force = one.retracted ? 0 : 1;
+    assertion.who = one.said.who;
+    assertion.made_utime = utime_of(one.made);
+    assertion.made_after_visits = one.said.made_after_visits;
+    assertion.effect = one.effect;
+    assertion.retracted_by = one.said.retracted_by;
+    assertion.retracted_utime = one.retracted ? utime_of(*one.retracted) : 0;
+    assertion.retracted_after_visits = one.said.retracted_after_visits.value_or(-1);
+    assertion.retraction_effect = one.retraction_effect;
+    message.assertions.push_back(std::move(assertion));
+  }
+  message.num_assertions = count_of(message.assertions.size());
   return message;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include <cairn_lcm/assertions_t.hpp>
 #include <cairn_lcm/hypotheses_t.hpp>
 #include <cairn_lcm/place_event_t.hpp>
 #include <cairn_lcm/pose_t.hpp>
@@ -23,6 +24,7 @@ struct Sender {
 /// same log gives the same bytes.
 [[nodiscard]] cairn_lcm::topology_t to_topology(const MapState& state, const Sender& sender);
 [[nodiscard]] cairn_lcm::hypotheses_t to_hypotheses(const MapState& state, const Sender& sender);
+[[nodiscard]] cairn_lcm::assertions_t to_assertions(const MapState& state, const Sender& sender);
 [[nodiscard]] cairn_lcm::trajectory_t to_trajectory(const MapState& state, const Sender& sender);
 
 /// @param T_global_robot none while no pose in the global frame is claimed

@@ -12,6 +12,7 @@
 #include "place/gateway.hpp"
 #include "sensing/laser_scan.hpp"
 #include "sensing/time.hpp"
+#include "service/operator_log.hpp"
 
 namespace cairn {
 
@@ -84,7 +85,9 @@ struct MapState {
   std::int64_t refused_visits = 0;          ///< Stars that are no valid view.
   std::int64_t guarantee_given_up_at = -1;  ///< Visit number; -1: every consistent map is alive.
   std::string guarantee_reason;
-  std::vector<PosedScan> trajectory;  ///< Every scan so far: H(x).
+  std::string blamed;  ///< By the last repair; empty: no visit had to be blamed.
+  std::vector<AuditedAssertion> assertions;  ///< All that operators ever said, in order.
+  std::vector<PosedScan> trajectory;         ///< Every scan so far: H(x).
   /// Every scan and every odometry sample between scans, in the order of arrival.
   std::vector<TimedPose> poses;
   Pose2 T_global_lpm;  ///< Where the frame of the local map lies now.

@@ -121,6 +121,24 @@ class MappingService::Pipeline {
     ++revision_;
   }
 
+  Result<AssertionReport> assert_places(VisitId a, VisitId b, bool is_same, const Operator& by) {
+    Result<AssertionReport> report = tree_.assert_places(a, b, is_same, by.who);
+    if (report) {
+      operator_log_.made(*report, by.when);
+      take_in(*report);
+    }
+    return report;
+  }
+
+  Result<AssertionReport> retract(int assertion, const Operator& by) {
+    Result<AssertionReport> report = tree_.retract(assertion, by.who);
+    if (report) {
+      operator_log_.retracted(*report, by.when);
+      take_in(*report);
+    }
+    return report;
+  }
+
   [[nodiscard]] std::optional<VisitId> first_visit(int place) const {
     if (!laid_out_ || place < 0 || place >= laid_out_->map.place_count()) {
       return std::nullopt;
@@ -130,6 +148,7 @@ class MappingService::Pipeline {
 
   [[nodiscard]] std::shared_ptr<const MapState> state() const;
 
+  [[nodiscard]] std::int64_t revision() const { return revision_; }
   [[nodiscard]] const Experience& experience() const { return experience_; }
   [[nodiscard]] const HypothesisTree& tree() const { return tree_; }
   [[nodiscard]] const OccupancyGrid& local_map() const { return local_mapper_.grid(); }
@@ -195,6 +214,9 @@ class MappingService::Pipeline {
       Result<ExtendReport> report = tree_.extend(action, view);
       CAIRN_CHECK(report.ok());
       refuted_ += refuted_by(*report);
+      if (report->repair) {
+        blamed_ = to_text(report->repair->blamed);
+      }
       updates->extensions.push_back(*std::move(report));
     }
     ++revision_;
@@ -203,6 +225,15 @@ class MappingService::Pipeline {
     enter(Stage::kPlaces);
     updates->visits.push_back(std::move(visit));
     updates->is_map_changed = true;
+  }
+
+  /// The tree has been grown anew.
+  void take_in(const AssertionReport& report) {
+    blamed_ = report.repair ? to_text(report.repair->blamed) : "";
+    ++revision_;
+    enter(Stage::kLayout);
+    lay_out();
+    enter(Stage::kIdle);
   }
 
   /// Whether this is the last visit, told once more: after a restart the detector sees its place
@@ -266,8 +297,10 @@ class MappingService::Pipeline {
   std::optional<LaidOut> laid_out_;
   MetricalMap metrical_;                  ///< Of that hypothesis.
   std::map<VisitId, std::string> names_;  ///< Given by people, to the place of a visit.
-  GaussianPose T_global_anchor_;          ///< The robot at the last visit's anchor.
-  GaussianPose since_anchor_;             ///< Its motion since.
+  OperatorLog operator_log_;
+  std::string blamed_;            ///< By the last repair.
+  GaussianPose T_global_anchor_;  ///< The robot at the last visit's anchor.
+  GaussianPose since_anchor_;     ///< Its motion since.
   std::int64_t revision_ = 0;
   std::int64_t refuted_ = 0;
   std::int64_t refused_visits_ = 0;
@@ -341,6 +374,8 @@ std::shared_ptr<const MapState> MappingService::Pipeline::state() const {
   state->waiting_count = tree_.waiting_count();
   state->refused_visits = refused_visits_;
   state->refuted_count = refuted_;
+  state->blamed = blamed_;
+  state->assertions = operator_log_.audited(tree_.assertions());
   if (tree_.guarantee_given_up()) {
     state->guarantee_given_up_at = tree_.guarantee_given_up()->visit.value;
     state->guarantee_reason = tree_.guarantee_given_up()->reason;
@@ -384,6 +419,9 @@ Updates MappingService::resume() {
 std::shared_ptr<const MapState> MappingService::state() const {
   return pipeline_->state();
 }
+std::int64_t MappingService::revision() const {
+  return pipeline_->revision();
+}
 const Experience& MappingService::experience() const {
   return pipeline_->experience();
 }
@@ -401,6 +439,15 @@ const PlaceDetectorReport& MappingService::place_report() const {
 }
 void MappingService::name_place_of(VisitId visit, const std::string& name) {
   pipeline_->name_place_of(visit, name);
+}
+Result<AssertionReport> MappingService::assert_places(VisitId a,
+                                                      VisitId b,
+                                                      bool is_same,
+                                                      const Operator& by) {
+  return pipeline_->assert_places(a, b, is_same, by);
+}
+Result<AssertionReport> MappingService::retract(int assertion, const Operator& by) {
+  return pipeline_->retract(assertion, by);
 }
 std::optional<VisitId> MappingService::first_visit(int place) const {
   return pipeline_->first_visit(place);

@@ -11,6 +11,7 @@
 #include "sensing/scan_joiner.hpp"
 #include "service/experience.hpp"
 #include "service/map_state.hpp"
+#include "service/operator_log.hpp"
 #include "service/options.hpp"
 #include "topology/hypothesis_tree.hpp"
 
@@ -66,8 +67,18 @@ class MappingService {
   /// The first visit to a place of the best map; nothing where there is no such place.
   [[nodiscard]] std::optional<VisitId> first_visit(int place) const;
 
+  /// An operator says that two visits were, or were not, to the same place: the tree is grown anew
+  /// and the best map laid out. An error, and nothing changed, as of HypothesisTree::assert_places.
+  /// Part of the experience: it is recalled where it was made, between visits and scans.
+  Result<AssertionReport> assert_places(VisitId a, VisitId b, bool is_same, const Operator& by);
+  /// Takes an assertion back. An error, and nothing changed, if none by that number is in force.
+  Result<AssertionReport> retract(int assertion, const Operator& by);
+
   /// The best map with everything that is published of it.
   [[nodiscard]] std::shared_ptr<const MapState> state() const;
+
+  /// Of the best map: goes up with every change. state() has it too, at a higher price.
+  [[nodiscard]] std::int64_t revision() const;
 
   [[nodiscard]] const Experience& experience() const;
   [[nodiscard]] const HypothesisTree& tree() const;

@@ -9,10 +9,7 @@
 
 namespace cairn {
 
-Result<AssertionReport> HypothesisTree::assert_places(VisitId a,
-                                                      VisitId b,
-                                                      bool is_same,
-                                                      std::string who) {
+Status HypothesisTree::check_places(VisitId a, VisitId b, bool is_same) const {
   for (const VisitId visit : {a, b}) {
     if (!visit.is_valid() || visit.value >= visit_count()) {
       return Error{ErrorCode::kNotFound, "visit: expected one in [0, " +
@@ -23,6 +20,20 @@ Result<AssertionReport> HypothesisTree::assert_places(VisitId a,
   if (a == b) {
     return Error{ErrorCode::kInvalidValue,
                  "expected two visits, got visit " + std::to_string(a.value) + " twice"};
+  }
+  OperatorAssertion assertion;
+  assertion.a = a;
+  assertion.b = b;
+  assertion.is_same = is_same;
+  return assertions_.check(std::move(assertion));
+}
+
+Result<AssertionReport> HypothesisTree::assert_places(VisitId a,
+                                                      VisitId b,
+                                                      bool is_same,
+                                                      std::string who) {
+  if (Status status = check_places(a, b, is_same); !status.ok()) {
+    return status.error();
   }
   OperatorAssertion assertion;
   assertion.a = a;
@@ -65,7 +76,7 @@ AssertionReport HypothesisTree::regrow_and_compare() {
   AssertionReport report;
   const std::vector<VisitId> earlier = places_by_visit(leaf_of(best().id));
   report.log_posterior_before = best().log_posterior();
-  regrow();
+  report.repair = regrow();
   const std::vector<VisitId> later = places_by_visit(leaf_of(best().id));
   report.best = best().id;
   report.log_posterior_after = best().log_posterior();
@@ -75,18 +86,23 @@ AssertionReport HypothesisTree::regrow_and_compare() {
           {VisitId{static_cast<std::int32_t>(visit)}, earlier[visit], later[visit]});
     }
   }
-  report.sentence = report.moved.empty()
-                        ? "the best map stays as it was"
-                        : std::to_string(report.moved.size()) +
-                              " visits are at other places now, the first is visit " +
-                              std::to_string(report.moved.front().visit.value);
+  if (report.moved.empty()) {
+    report.sentence = "the best map stays as it was";
+  } else if (const std::string first = "visit " + std::to_string(report.moved[0].visit.value);
+             report.moved.size() == 1) {
+    report.sentence = first + " is at another place now";
+  } else {
+    report.sentence = std::to_string(report.moved.size()) +
+                      " visits are at other places now, the first is " + first;
+  }
   report.sentence += "; log-posterior " + std::to_string(report.log_posterior_before) + " -> " +
                      std::to_string(report.log_posterior_after);
   return report;
 }
 
 /// From the first visit on, under the assertions in force. Ids go on: none is given twice.
-void HypothesisTree::regrow() {
+/// @return the last repair, if there was any
+std::optional<Repair> HypothesisTree::regrow() {
   const int visits = engine_->experience.size();
   const std::int32_t next_id = engine_->nodes.next_id();
   auto engine = std::make_unique<Engine>(engine_->options, std::move(engine_->evidence));
@@ -101,10 +117,14 @@ void HypothesisTree::regrow() {
   waiting_ = DeferredLeaves(engine_->options.preference);
   given_up_.reset();
   log_given_up_ = -std::numeric_limits<double>::infinity();
+  std::optional<Repair> repair;
   plant();
   while (static_cast<int>(baseline_log_posterior_.size()) < visits) {
-    static_cast<void>(absorb_next({}));
+    if (const ExtendReport report = absorb_next({}); report.repair) {
+      repair = report.repair;
+    }
   }
+  return repair;
 }
 
 }  // namespace cairn

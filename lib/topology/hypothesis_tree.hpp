@@ -180,6 +180,12 @@ class HypothesisTree {
 
   // What an operator says: assertions.cpp.
 
+  /// Whether assert_places() would take this up.
+  [[nodiscard]] Status check_places(VisitId a, VisitId b, bool is_same) const;
+  /// Whether retract() would take this back.
+  [[nodiscard]] Status check_retraction(int assertion) const {
+    return assertions_.check_retraction(assertion);
+  }
   /// The two visits were, or were not, to the same place. The tree is grown anew from the
   /// experience under all assertions in force. An error, and nothing changed, if the visits are not
   /// known or are the same one, or the assertion contradicts those in force.
@@ -235,7 +241,7 @@ class HypothesisTree {
   [[nodiscard]] Status check(Action action, const View& view, bool is_carried) const;
   void plant();
   ExtendReport absorb_next(const Deadline& is_time_up);
-  void regrow();
+  std::optional<Repair> regrow();
   AssertionReport regrow_and_compare();
   [[nodiscard]] std::vector<VisitId> places_by_visit(const Leaf& leaf) const;
   void expand(const Leaf& leaf, ExtendReport& report);

@@ -32,12 +32,17 @@ class SamePlaces {
 }  // namespace
 
 Result<int> OperatorAssertions::add(OperatorAssertion assertion) {
-  assertion.number = static_cast<int>(all_.size()) + 1;
-  if (Status status = check_against_others(assertion); !status.ok()) {
+  if (Status status = check(assertion); !status.ok()) {
     return status.error();
   }
+  assertion.number = static_cast<int>(all_.size()) + 1;
   all_.push_back(std::move(assertion));
   return all_.back().number;
+}
+
+Status OperatorAssertions::check(OperatorAssertion assertion) const {
+  assertion.number = static_cast<int>(all_.size()) + 1;
+  return check_against_others(assertion);
 }
 
 Status OperatorAssertions::check_against_others(const OperatorAssertion& assertion) const {
@@ -48,8 +53,15 @@ Status OperatorAssertions::check_against_others(const OperatorAssertion& asserti
     }
   }
   if (!assertion.is_same && same.root_of(assertion.a) == same.root_of(assertion.b)) {
+    std::string numbers;
+    for (const OperatorAssertion& other : all_) {
+      if (is_in_force(other) && other.is_same &&
+          same.root_of(other.a) == same.root_of(assertion.a)) {
+        numbers += (numbers.empty() ? "" : ", ") + std::to_string(other.number);
+      }
+    }
     return Error{ErrorCode::kContradiction,
-                 text_of(assertion) + ": other assertions in force say that they were"};
+                 text_of(assertion) + ": it contradicts what is in force (" + numbers + ")"};
   }
   if (assertion.is_same) {
     same.join(assertion.a, assertion.b);
@@ -63,17 +75,24 @@ Status OperatorAssertions::check_against_others(const OperatorAssertion& asserti
   return {};
 }
 
-Status OperatorAssertions::retract(int number, int after_visits, std::string who) {
+Status OperatorAssertions::check_retraction(int number) const {
   if (number < 1 || number > static_cast<int>(all_.size())) {
     return Error{ErrorCode::kNotFound, "assertion " + std::to_string(number) +
                                            ": expected a number in [1, " +
                                            std::to_string(all_.size()) + "]"};
   }
-  OperatorAssertion& assertion = all_[static_cast<std::size_t>(number) - 1];
-  if (!is_in_force(assertion)) {
+  if (!is_in_force(all_[static_cast<std::size_t>(number) - 1])) {
     return Error{ErrorCode::kNotFound,
                  "assertion " + std::to_string(number) + " has already been taken back"};
   }
+  return {};
+}
+
+Status OperatorAssertions::retract(int number, int after_visits, std::string who) {
+  if (Status status = check_retraction(number); !status.ok()) {
+    return status;
+  }
+  OperatorAssertion& assertion = all_[static_cast<std::size_t>(number) - 1];
   assertion.retracted_after_visits = after_visits;
   assertion.retracted_by = std::move(who);
   return {};

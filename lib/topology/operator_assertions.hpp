@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "topology/extend_report.hpp"
 #include "topology/ids.hpp"
 
 namespace cairn {
@@ -35,6 +36,7 @@ struct AssertionReport {
   HypothesisId best;
   double log_posterior_before = 0.0;  ///< Of the best hypothesis.
   double log_posterior_after = 0.0;
+  std::optional<Repair> repair;  ///< The last one that growing the tree anew needed.
   std::string sentence;
 };
 
@@ -44,6 +46,10 @@ class OperatorAssertions {
   /// Takes it up under the next number. An error if it contradicts those in force: visits that are
   /// the same place as others by assertion cannot be told different, nor the other way round.
   Result<int> add(OperatorAssertion assertion);
+  /// Whether add() would take it up. @param assertion its number is not looked at
+  [[nodiscard]] Status check(OperatorAssertion assertion) const;
+  /// Whether retract() would take it back.
+  [[nodiscard]] Status check_retraction(int number) const;
   Status retract(int number, int after_visits, std::string who);
 
   [[nodiscard]] const std::vector<OperatorAssertion>& all() const { return all_; }

@@ -20,9 +20,9 @@ namespace fs = std::filesystem;
 const fs::path kSource = CAIRN_SOURCE_DIR;
 
 /// The endings that say the unit of a floating-point field, or that it has none.
-const std::vector<std::string> kUnits = {"_m",          "_rad",      "_s",       "_ms",
-                                         "_mb",         "_share",    "_m2_rad2", "_m_rad",
-                                         "probability", "posterior", "_p50",     "_max"};
+const std::vector<std::string> kUnits = {
+    "_m",     "_rad",        "_s",        "_ms",  "_mb",  "_share",     "_m2_rad2",
+    "_m_rad", "probability", "posterior", "_p50", "_max", "likelihood", "log_odds"};
 
 bool says_its_unit(const std::string& field) {
   return std::any_of(kUnits.begin(), kUnits.end(), [&field](const std::string& unit) {

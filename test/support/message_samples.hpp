@@ -5,8 +5,15 @@
 
 #include <bot_core/planar_lidar_t.hpp>
 #include <bot_core/pose_t.hpp>
+#include <cairn_lcm/assert_request_t.hpp>
+#include <cairn_lcm/assertion_report_t.hpp>
+#include <cairn_lcm/assertion_t.hpp>
+#include <cairn_lcm/assertions_t.hpp>
 #include <cairn_lcm/delta_request_t.hpp>
 #include <cairn_lcm/event_request_t.hpp>
+#include <cairn_lcm/explain_request_t.hpp>
+#include <cairn_lcm/explained_step_t.hpp>
+#include <cairn_lcm/explanation_t.hpp>
 #include <cairn_lcm/gateway_t.hpp>
 #include <cairn_lcm/grid_map_t.hpp>
 #include <cairn_lcm/hypotheses_t.hpp>
@@ -15,6 +22,7 @@
 #include <cairn_lcm/name_request_t.hpp>
 #include <cairn_lcm/odometry_t.hpp>
 #include <cairn_lcm/place_event_t.hpp>
+#include <cairn_lcm/place_ref_t.hpp>
 #include <cairn_lcm/place_t.hpp>
 #include <cairn_lcm/plan_request_t.hpp>
 #include <cairn_lcm/plan_t.hpp>
@@ -64,6 +72,7 @@ template <>
 inline cairn_lcm::hypotheses_t sample() {
   cairn_lcm::hypotheses_t message{};
   message.guarantee_reason = "budget";
+  message.blamed = "visit 7: misread star";
   message.num_hypotheses = 2;
   for (auto* const list : {&message.id, &message.parent_id}) {
     list->assign(2, 7);
@@ -152,6 +161,68 @@ inline cairn_lcm::plan_t sample() {
 }
 
 template <>
+inline cairn_lcm::place_ref_t sample() {
+  cairn_lcm::place_ref_t message{};
+  message.name = "kitchen";
+  return message;
+}
+
+template <>
+inline cairn_lcm::assert_request_t sample() {
+  cairn_lcm::assert_request_t message{};
+  message.a = message.b = sample<cairn_lcm::place_ref_t>();
+  message.who = "alice";
+  return message;
+}
+
+template <>
+inline cairn_lcm::assertion_report_t sample() {
+  cairn_lcm::assertion_report_t message{};
+  message.result = sample<cairn_lcm::result_t>();
+  message.sentence = "2 visits are at other places now";
+  message.num_moved = message.num_listed = 2;
+  message.visit = message.known_since_before = message.known_since_after = message.place = {7, 9};
+  return message;
+}
+
+template <>
+inline cairn_lcm::assertion_t sample() {
+  cairn_lcm::assertion_t message{};
+  message.who = "alice";
+  message.effect = "the best map stays as it was";
+  message.retracted_by = "bob";
+  message.retraction_effect = "the best map stays as it was";
+  return message;
+}
+
+template <>
+inline cairn_lcm::assertions_t sample() {
+  cairn_lcm::assertions_t message{};
+  message.assertions.assign(2, sample<cairn_lcm::assertion_t>());
+  message.num_assertions = 2;
+  return message;
+}
+
+template <>
+inline cairn_lcm::explained_step_t sample() {
+  cairn_lcm::explained_step_t message{};
+  message.kind_name = "closure";
+  message.refuted_by = "the view differs";
+  message.sentence = "visit 7: closure: refuted: the view differs";
+  return message;
+}
+
+template <>
+inline cairn_lcm::explanation_t sample() {
+  cairn_lcm::explanation_t message{};
+  message.result = sample<cairn_lcm::result_t>();
+  message.sentence = "hypotheses 1 and 2 part at visit 7";
+  message.steps.assign(2, sample<cairn_lcm::explained_step_t>());
+  message.num_steps = 2;
+  return message;
+}
+
+template <>
 inline cairn_lcm::snapshot_chunk_t sample() {
   cairn_lcm::snapshot_chunk_t message{};
   message.data = {1, 2, 3, 4, 5};
@@ -182,6 +253,7 @@ inline cairn_lcm::status_t sample() {
   message.version = "0.1.0";
   message.state_name = "MAPPING";
   message.reason = "none";
+  message.blamed = "visit 7: misread star";
   return message;
 }
 

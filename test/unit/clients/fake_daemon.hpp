@@ -1,8 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <limits>
 
+#include <cairn_lcm/assert_request_t.hpp>
+#include <cairn_lcm/assertion_report_t.hpp>
 #include <cairn_lcm/event_request_t.hpp>
+#include <cairn_lcm/explain_request_t.hpp>
+#include <cairn_lcm/explanation_t.hpp>
 #include <cairn_lcm/map_delta_t.hpp>
 #include <cairn_lcm/place_event_t.hpp>
 #include <cairn_lcm/plan_request_t.hpp>
@@ -38,6 +44,13 @@ class FakeDaemon {
     serve(cairn_lcm::snapshot_request_t::TOPOLOGY, sample_topology());
     serve(cairn_lcm::snapshot_request_t::HYPOTHESES, sample_hypotheses());
     serve(cairn_lcm::snapshot_request_t::GLOBAL_MAP, sample_grid());
+    serve(cairn_lcm::snapshot_request_t::ASSERTIONS, sample_assertions());
+    subscribe<cairn_lcm::assert_request_t>(
+        bus, "CAIRN_REQUEST_ASSERT",
+        [this](const cairn_lcm::assert_request_t& request) { hear(request); });
+    subscribe<cairn_lcm::explain_request_t>(
+        bus, "CAIRN_REQUEST_EXPLAIN",
+        [this](const cairn_lcm::explain_request_t& request) { explain(request); });
     subscribe<cairn_lcm::snapshot_request_t>(
         bus, "CAIRN_REQUEST_SNAPSHOT", [this](const cairn_lcm::snapshot_request_t& request) {
           if (!server_.on_request(steady_us(), request)) {
@@ -92,7 +105,57 @@ class FakeDaemon {
     bus_.publish("CAIRN_PLAN", plan);
   }
 
+  /// Works for a while on the first request; refuses what contradicts.
+  void hear(const cairn_lcm::assert_request_t& request) {
+    heard_ = request;
+    if (++asserts_heard_ == 1) {
+      refuse(request.header, cairn_lcm::result_t::ACCEPTED, "");
+      return;
+    }
+    if (request.kind == cairn_lcm::assert_request_t::SAME) {
+      refuse(request.header, cairn_lcm::result_t::BAD_REQUEST, "it contradicts assertion 1");
+      return;
+    }
+    cairn_lcm::assertion_report_t report{};
+    report.result.header = request.header;
+    report.assertion = 3;
+    report.sentence = "visit 9 is at another place now";
+    report.num_moved = report.num_listed = 1;
+    report.visit = {9};
+    report.known_since_before = {2};
+    report.known_since_after = {9};
+    report.place = {6};
+    bus_.publish("CAIRN_ASSERTION", report);
+  }
+
+  /// Of five visits, two an answer; visit 3 was to place 2.
+  void explain(const cairn_lcm::explain_request_t& request) {
+    using Request = cairn_lcm::explain_request_t;
+    cairn_lcm::explanation_t message{};
+    message.result.header = request.header;
+    message.hypothesis_id = 3;
+    message.visit = request.visit;
+    message.next_visit =
+        request.kind == Request::OVERVIEW && request.visit < 4 ? request.visit + 2 : -1;
+    message.sentence = "hypotheses 3 and 8 part at visit 4";
+    const bool is_overview = request.kind == Request::OVERVIEW;
+    for (std::int64_t visit = request.visit; visit < std::min<std::int64_t>(request.visit + 2, 5);
+         ++visit) {
+      cairn_lcm::explained_step_t step{};
+      step.visit = is_overview ? visit : request.visit;
+      step.at_place = step.visit == 3 ? 2 : 7;
+      step.is_fate_known = 1;
+      step.fate_log_odds = -std::numeric_limits<double>::infinity();
+      step.sentence = "visit " + std::to_string(step.visit) + ": closure";
+      message.steps.push_back(step);
+    }
+    message.num_steps = static_cast<std::int32_t>(message.steps.size());
+    bus_.publish("CAIRN_EXPLANATION", message);
+  }
+
   std::function<void(const cairn_lcm::plan_request_t&)> answer_plan;
+  cairn_lcm::assert_request_t heard_{};
+  int asserts_heard_ = 0;
   int plan_requests_ = 0;
   std::int64_t newest_event_ = 0;
   int lose_every_ = 1'000'000;

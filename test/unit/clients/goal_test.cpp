@@ -15,6 +15,16 @@ TEST(Goal, ANumberIsAPlace) {
   EXPECT_EQ(goal->goal_name, "");
 }
 
+TEST(Place, IsANumberAVisitOrAName) {
+  EXPECT_EQ(parse_place("12")->place, 12);
+  EXPECT_EQ(parse_place("12")->visit, -1);
+  EXPECT_EQ(parse_place("visit:7")->visit, 7);
+  EXPECT_EQ(parse_place("kitchen 2")->name, "kitchen 2");
+  for (const char* wrong : {"", "-3", "visit:", "visit:x", "visit:-1", "99999999999999999999"}) {
+    EXPECT_FALSE(parse_place(wrong)) << wrong;
+  }
+}
+
 TEST(Goal, TwoNumbersAreAPointWithAnyHeading) {
   const auto goal = parse_goal("1.5,-2");
   ASSERT_TRUE(goal);

@@ -91,7 +91,7 @@ TEST_F(LiveCommands, ShowWhatTheDaemonHolds) {
                                          HasSubstr("1234 received"), HasSubstr("none yet")));
   EXPECT_EQ(nlohmann::json::parse(run({"status", "--json"}).out)["boot_id"], 99);
   EXPECT_THAT(run({"places"}).out, HasSubstr("0>3 1>1 2?"));
-  EXPECT_THAT(run({"hypotheses"}).out, HasSubstr("2 live after 9 visits"));
+  EXPECT_THAT(run({"hypotheses"}).out, HasSubstr("2 live after 9 visits, 17 waiting"));
 }
 
 TEST_F(LiveCommands, DrawTheSamePictureAsFromTheFile) {
@@ -120,6 +120,47 @@ TEST_F(LiveCommands, PathIsAskedForAndPrinted) {
   const Outcome nowhere = run({"path", "--to", "nowhere"});
   EXPECT_EQ(nowhere.status, 65);
   EXPECT_THAT(nowhere.err, HasSubstr("no path: no place has this name"));
+}
+
+TEST_F(LiveCommands, AnAssertionSaysWhatChanged) {
+  const Outcome done = run({"different", "3", "visit:9", "--who", "alice"});
+  EXPECT_EQ(done.status, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("assertion 3: visit 9 is at another place now"));
+  EXPECT_THAT(done.out, HasSubstr("visit 9: place 6 (known since visit 9)"));
+  EXPECT_EQ(daemon_.heard_.a.place, 3);
+  EXPECT_EQ(daemon_.heard_.b.visit, 9);
+  EXPECT_EQ(daemon_.heard_.who, "alice");
+  EXPECT_GT(daemon_.asserts_heard_, 1) << "ACCEPTED is not the answer";
+
+  const Outcome refused = run({"same", "kitchen", "5"});
+  EXPECT_EQ(refused.status, 65);
+  EXPECT_THAT(refused.err, HasSubstr("not asserted: it contradicts assertion 1"));
+  EXPECT_EQ(run({"same", "visit:x", "5"}).status, 64);
+  EXPECT_EQ(run({"same", "5"}).status, 64);
+  EXPECT_THAT(run({"retract", "3"}).out, HasSubstr("assertion 3 taken back"));
+}
+
+TEST_F(LiveCommands, TheAuditTellsWhoSaidWhatAndWhen) {
+  const Outcome audit = run({"assertions"});
+  EXPECT_EQ(audit.status, 0) << audit.err;
+  EXPECT_THAT(audit.out, HasSubstr("1  visit 2 (place 3) is the same place as visit 7 (place 3)"));
+  EXPECT_THAT(audit.out, HasSubstr("taken back by bob, 2023-11-14T22:14:20Z, after 9 visits"));
+  EXPECT_THAT(audit.out, HasSubstr("2  visit 2 (place 3) is another place than visit 7 (place 5)"));
+}
+
+TEST_F(LiveCommands, WhyAsksUntilAllVisitsAreExplained) {
+  const nlohmann::json all = nlohmann::json::parse(run({"why", "--json"}).out);
+  EXPECT_EQ(all["steps"].size(), 5U);
+  const Outcome one = run({"why", "3"});
+  EXPECT_THAT(one.out, HasSubstr("visit 3 is at place 2 of hypothesis 3"));
+  EXPECT_THAT(run({"why", "--place", "2"}).out, HasSubstr("visit 3 is at place 2"));
+  EXPECT_EQ(run({"why", "--place", "99"}).status, 65);
+  EXPECT_EQ(run({"why", "--place", "attic"}).status, 65);
+  EXPECT_THAT(run({"why", "--hypotheses", "3", "8"}).out, HasSubstr("part at visit 4"));
+  EXPECT_EQ(run({"why", "3", "--place", "2"}).status, 64);
+  const nlohmann::json fate = nlohmann::json::parse(run({"why", "3", "--json"}).out)["steps"][0];
+  EXPECT_EQ(fate["fate"]["is_refuted"], true);
+  EXPECT_TRUE(fate["fate"]["log_odds"].is_null());
 }
 
 TEST_F(LiveCommands, WatchAsksForTheEventsThatTheBusLost) {

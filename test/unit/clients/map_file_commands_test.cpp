@@ -70,8 +70,36 @@ TEST_F(MapFileCommands, HypothesesSayWhetherTheGuaranteeHolds) {
 
   EXPECT_EQ(hypotheses.status, 0);
   EXPECT_THAT(hypotheses.out, HasSubstr("0.7500        -10.500"));
-  EXPECT_THAT(hypotheses.out, HasSubstr("2 live after 9 visits, 41 refuted"));
+  EXPECT_THAT(hypotheses.out, HasSubstr("2 live after 9 visits, 17 waiting, 41 refuted"));
   EXPECT_THAT(hypotheses.out, HasSubstr("guarantee kept"));
+  EXPECT_THAT(hypotheses.out, HasSubstr("blamed    visit 4: misread star"));
+}
+
+TEST_F(MapFileCommands, AssertionsAreReadFromTheJournal) {
+  EXPECT_THAT(run({"assertions", map_}).out, HasSubstr("nothing was ever asserted"));
+  run_sql(
+      map_,
+      "CREATE TABLE assertion(step INTEGER PRIMARY KEY, after_scan INTEGER, after_visit INTEGER,"
+      "  utime INTEGER, who TEXT, kind TEXT, visit_a INTEGER, visit_b INTEGER,"
+      "  assertion INTEGER, client_id INTEGER, request_id INTEGER);"
+      "INSERT INTO assertion VALUES (1, 9, 3, 1700000000000000, 'alice', 'same', 0, 2, 0, 7, 1),"
+      "  (2, 9, 3, 1700000060000000, 'bob', 'retract', -1, -1, 1, 7, 2),"
+      "  (3, 9, 3, 1700000060000001, 'eve' || char(27), 'different', 1, 2, 0, 7, 3);");
+
+  const Outcome audit = run({"assertions", map_});
+  EXPECT_EQ(audit.status, 0) << audit.err;
+  EXPECT_THAT(
+      audit.out,
+      HasSubstr("1  visit 0 is the same place as visit 2; alice, 2023-11-14T22:13:20Z, after "
+                "3 visits; taken back"));
+  EXPECT_THAT(audit.out, HasSubstr("taken back by bob, 2023-11-14T22:14:20Z"));
+  EXPECT_THAT(audit.out, HasSubstr("2  visit 1 is another place than visit 2; eve?,"));
+  const nlohmann::json json = nlohmann::json::parse(run({"assertions", "--json", map_}).out);
+  EXPECT_EQ(json["assertions"][0]["is_in_force"], false);
+  EXPECT_EQ(json["assertions"][1]["is_in_force"], true);
+
+  run_sql(map_, "UPDATE assertion SET assertion = 5 WHERE kind = 'retract'");
+  EXPECT_EQ(run({"assertions", map_}).status, 65);
 }
 
 TEST_F(MapFileCommands, StatusCountsDocumentsAndJournal) {

@@ -166,7 +166,9 @@ cairn_lcm::hypotheses_t sample_hypotheses() {
   h.revision = 12;
   h.num_visits = 9;
   h.num_live = 2;
+  h.num_waiting = 17;
   h.num_refuted = 41;
+  h.blamed = "visit 4: misread star";
   h.guarantee_given_up_at = -1;
   h.num_hypotheses = 2;
   h.id = {3, 8};
@@ -178,6 +180,36 @@ cairn_lcm::hypotheses_t sample_hypotheses() {
   h.num_closures = {1, 0};
   h.num_pending = {1, 3};
   return h;
+}
+
+cairn_lcm::assertions_t sample_assertions() {
+  cairn_lcm::assertions_t all{};
+  all.map_id = 7;
+  all.revision = 12;
+  all.num_assertions = 2;
+  cairn_lcm::assertion_t one{};
+  one.number = 1;
+  one.is_same = 1;
+  one.visit_a = 2;
+  one.visit_b = 7;
+  one.place_a = one.place_b = 3;
+  one.who = "alice";
+  one.made_utime = 1'700'000'000'000'000;
+  one.made_after_visits = 8;
+  one.effect = "the best map stays as it was";
+  one.retracted_by = "bob";
+  one.retracted_utime = 1'700'000'060'000'000;
+  one.retracted_after_visits = 9;
+  all.assertions.push_back(one);
+  one.number = 2;
+  one.is_same = 0;
+  one.is_in_force = 1;
+  one.place_b = 5;
+  one.retracted_by.clear();
+  one.retracted_utime = 0;
+  one.retracted_after_visits = -1;
+  all.assertions.push_back(one);
+  return all;
 }
 
 cairn_lcm::trajectory_t sample_trajectory() {
@@ -206,6 +238,8 @@ cairn_lcm::status_t sample_status() {
   s.num_places = 5;
   s.num_visits = 9;
   s.num_hypotheses = 2;
+  s.num_waiting = 17;
+  s.blamed = "visit 4: misread star";
   s.best_probability = 0.75;
   s.is_localized = 1;
   s.is_guarantee_kept = 1;

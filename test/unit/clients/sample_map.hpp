@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include <cairn_lcm/assertions_t.hpp>
 #include <cairn_lcm/grid_map_t.hpp>
 #include <cairn_lcm/hypotheses_t.hpp>
 #include <cairn_lcm/status_t.hpp>
@@ -17,6 +18,8 @@ namespace cairn::clients {
 [[nodiscard]] cairn_lcm::grid_map_t sample_grid();
 [[nodiscard]] cairn_lcm::topology_t sample_topology();
 [[nodiscard]] cairn_lcm::hypotheses_t sample_hypotheses();
+/// Two, the first taken back.
+[[nodiscard]] cairn_lcm::assertions_t sample_assertions();
 [[nodiscard]] cairn_lcm::trajectory_t sample_trajectory();
 [[nodiscard]] cairn_lcm::status_t sample_status();
 

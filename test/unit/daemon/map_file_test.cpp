@@ -40,15 +40,30 @@ class MapFileTest : public ::testing::Test {
       return {map.error().message};
     }
     const Status status =
-        map->read_journal([&](const PerceivedScan&) { entries.emplace_back("s"); },
-                          [&](const Visit&) {
-                            entries.emplace_back("v");
-                            return Status();
-                          });
+        map->read_journal({[&](const PerceivedScan&) { entries.emplace_back("s"); },
+                           [&](const Visit&) {
+                             entries.emplace_back("v");
+                             return Status();
+                           },
+                           [&](const OperatorOrder& order) {
+                             entries.emplace_back("o" + std::to_string(order.request_id));
+                             return Status();
+                           }});
     if (!status) {
       entries.push_back(status.error().message);
     }
     return entries;
+  }
+
+  static OperatorOrder order(int request_id) {
+    OperatorOrder order;
+    order.kind = OperatorOrder::Kind::kDifferent;
+    order.a = VisitId{0};
+    order.b = VisitId{4};
+    order.by = {"alice", time_of_utime(77)};
+    order.client_id = 5;
+    order.request_id = request_id;
+    return order;
   }
 
   static void run_sql(const std::string& file, const std::string& sql) {
@@ -95,6 +110,59 @@ TEST_F(MapFileTest, KeepsNamesAndTakesThemAway) {
   EXPECT_EQ(MapFile::open(path())->read_names()->at(0), "kitchen");
   ASSERT_TRUE(MapFile::open(path())->write_name(0, "").ok());
   EXPECT_TRUE(MapFile::open(path())->read_names()->empty());
+}
+
+TEST_F(MapFileTest, GivesOrdersBackWhereTheyWereMade) {
+  {
+    Result<MapFile> map = MapFile::open(path());
+    ASSERT_TRUE(map->write_order(order(0)).ok());
+    ASSERT_TRUE(map->append(test::scan_at(0, Pose2(), Pose2())).ok());
+    ASSERT_TRUE(map->append(test::scan_at(1, Pose2(1, 0, 0), Pose2(1, 0, 0))).ok());
+    ASSERT_TRUE(map->append(Visit{test::corner_at({1, 0}), 1}).ok());
+    ASSERT_TRUE(map->write_order(order(1)).ok());
+    ASSERT_TRUE(map->write_order(order(2)).ok());
+    ASSERT_TRUE(map->append(test::scan_at(2, Pose2(2, 0, 0), Pose2(1, 0, 0))).ok());
+    ASSERT_TRUE(map->write_order(order(3)).ok());
+    ASSERT_TRUE(map->append(test::scan_at(3, Pose2(3, 0, 0), Pose2(1, 0, 0))).ok());
+    ASSERT_TRUE(map->append(Visit{test::corner_at({3, 0}), 3}).ok());
+    ASSERT_TRUE(map->commit().ok());
+  }  // Not closed: as after kill -9.
+  EXPECT_THAT(journal_of(path()),
+              ElementsAre("o0", "s", "s", "v", "o1", "o2", "s", "o3", "s", "v"));
+}
+
+TEST_F(MapFileTest, KeepsAllThatAnOrderSays) {
+  ASSERT_TRUE(MapFile::open(path())->write_order(order(9)).ok());
+  OperatorOrder kept;
+  ASSERT_TRUE(
+      MapFile::open(path())
+          ->read_journal({[](const PerceivedScan&) {}, [](const Visit&) { return Status(); },
+                          [&](const OperatorOrder& read) {
+                            kept = read;
+                            return Status();
+                          }})
+          .ok());
+  EXPECT_EQ(kept.kind, OperatorOrder::Kind::kDifferent);
+  EXPECT_EQ(kept.a, VisitId{0});
+  EXPECT_EQ(kept.b, VisitId{4});
+  EXPECT_EQ(kept.by.who, "alice");
+  EXPECT_EQ(kept.by.when, time_of_utime(77));
+  EXPECT_EQ(kept.client_id, 5);
+  EXPECT_EQ(kept.request_id, 9);
+}
+
+TEST_F(MapFileTest, AMapFromBeforeThereWereAssertionsIsTakenUp) {
+  write_journal(path());
+  run_sql(path(), "DROP TABLE assertion");
+  EXPECT_THAT(journal_of(path()), ElementsAre("s", "s", "s", "v", "s"));
+  ASSERT_TRUE(MapFile::open(path())->write_order(order(1)).ok());
+  EXPECT_THAT(journal_of(path()), ElementsAre("s", "s", "s", "v", "s", "o1"));
+}
+
+TEST_F(MapFileTest, AnOrderOfNoKnownKindEndsTheJournal) {
+  ASSERT_TRUE(MapFile::open(path())->write_order(order(1)).ok());
+  run_sql(path(), "UPDATE assertion SET kind = 'perhaps'");
+  EXPECT_THAT(journal_of(path()).back(), HasSubstr("assertion row 1 is damaged"));
 }
 
 TEST_F(MapFileTest, ADamagedRowEndsTheJournalWithItsName) {
