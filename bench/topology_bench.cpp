@@ -5,9 +5,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "support/explorations.hpp"
 #include "exact_search/exact_search.hpp"
 #include "exact_search/observed_walk.hpp"
+#include "support/explorations.hpp"
 #include "topology/working_map.hpp"
 
 namespace cairn {
@@ -133,8 +133,7 @@ WorkingMap grown_map(const ObservedWalk& walk, int places) {
   WorkingMap map(walk.stars(), WorkingMap::Rings::kFaces);
   map.start(walk.start(), VisitId{0});
   while (map.place_count() < places) {
-    const auto at =
-        static_cast<GatewayIndex>(random() % static_cast<unsigned>(map.gateway_count()));
+    const auto at = static_cast<GatewayIndex>(random() % static_cast<unsigned>(map.end_gateway()));
     if (map.is_pending(at)) {
       map.apply({MapChange::Kind::kPlace, walk.start(), VisitId{map.place_count()}, at, 0});
     }

@@ -19,6 +19,7 @@ TopologyOptions strict(const ExactSearchOptions& options) {
   strict.max_places = options.max_places;
   strict.max_hypotheses = 10'000'000;
   strict.max_bytes = 1'000'000'000'000;
+  strict.max_repair_steps = 0;
   return strict;
 }
 
@@ -69,6 +70,63 @@ void tidy(std::size_t max_codes, std::optional<Simplest>* simplest) {
   }
 }
 
+/// The tree as the papers have it: where nothing explains an arrival it has no leaves any more,
+/// and nobody repairs it.
+class StrictTree {
+ public:
+  StrictTree(const Exploration& exploration, const ExactSearchOptions& options)
+      : exploration_(&exploration), max_nodes_(options.max_nodes), tree_(strict(options)) {
+    CAIRN_CHECK(tree_.start({exploration.start, exploration.start_gateway, VisitId{0}}).ok());
+    nodes_ = tree_.node_count();
+    maps_ = tree_.maps_built();
+  }
+
+  /// The next step. False: that was the last one, or the bound on nodes was reached.
+  bool extend() {
+    if (leaves_.size() == exploration_->steps.size() || !is_complete_) {
+      return false;
+    }
+    if (is_refuted_) {
+      leaves_.push_back(0);
+      return true;
+    }
+    const ExplorationStep& next = exploration_->steps[leaves_.size()];
+    const auto is_full = [this] { return max_nodes_ > 0 && tree_.node_count() >= max_nodes_; };
+    const Result<ExtendReport> report =
+        tree_.extend({next.turn}, {next.star, next.arrival_gateway, VisitId{tree_.visit_count()}});
+    CAIRN_CHECK(report.ok());
+    mismatches_ += report->links_contradicted;
+    is_refuted_ = report->repair.has_value();
+    leaves_.push_back(is_refuted_ ? 0 : report->leaves);
+    if (!is_refuted_) {
+      nodes_ = tree_.node_count();
+      maps_ = tree_.maps_built();
+    }
+    is_complete_ = is_refuted_ || (report->waiting == 0 && !report->guarantee_given_up &&
+                                   (!is_full() || leaves_.size() == exploration_->steps.size()));
+    return is_complete_;
+  }
+
+  [[nodiscard]] const HypothesisTree& tree() const { return tree_; }
+  [[nodiscard]] const std::vector<std::int64_t>& leaves() const { return leaves_; }
+  [[nodiscard]] std::int64_t nodes() const { return nodes_; }
+  [[nodiscard]] std::int64_t maps() const { return maps_; }
+  [[nodiscard]] std::int64_t mismatches() const { return mismatches_; }
+  [[nodiscard]] bool is_complete() const { return is_complete_; }
+  [[nodiscard]] bool is_refuted() const { return is_refuted_; }
+
+ private:
+  const Exploration* exploration_;
+  std::int64_t max_nodes_;
+  HypothesisTree tree_;
+  std::vector<std::int64_t> leaves_;
+  std::int64_t nodes_ = 0;
+  std::int64_t maps_ = 0;
+  std::int64_t mismatches_ = 0;
+  bool is_complete_ = true;
+  bool is_refuted_ = false;
+};
+
 /// Maps that are not region-consistent never heal, so those left by pruning are those that are.
 std::vector<std::int64_t> region_leaves(const Exploration& exploration,
                                         ExactSearchOptions options,
@@ -77,49 +135,36 @@ std::vector<std::int64_t> region_leaves(const Exploration& exploration,
     return leaves;
   }
   options.region_consistent = true;
-  HypothesisTree tree(strict(options));
-  CAIRN_CHECK(tree.start({exploration.start, exploration.start_gateway, VisitId{0}}).ok());
-  std::vector<std::int64_t> left;
-  for (std::size_t step = 0; step < leaves.size(); ++step) {
-    const ExplorationStep& next = exploration.steps[step];
-    const auto report =
-        tree.extend({next.turn}, {next.star, next.arrival_gateway, VisitId{tree.visit_count()}});
-    CAIRN_CHECK(report.ok());
-    left.push_back(report->leaves);
+  StrictTree tree(exploration, options);
+  while (tree.leaves().size() < leaves.size() && tree.extend()) {
   }
-  return left;
+  return tree.leaves();
 }
 
 }  // namespace
 
 SearchRun run_breadth(const Exploration& exploration, const ExactSearchOptions& options) {
   const double start_s = cpu_time_s();
-  SearchRun run;
-  MapCounts& counts = run.counts;
-  HypothesisTree tree(strict(options));
-  CAIRN_CHECK(tree.start({exploration.start, exploration.start_gateway, VisitId{0}}).ok());
-  for (const ExplorationStep& step : exploration.steps) {
-    const Result<ExtendReport> report =
-        tree.extend({step.turn}, {step.star, step.arrival_gateway, VisitId{tree.visit_count()}});
-    CAIRN_CHECK(report.ok());
-    counts.view_mismatches += report->links_contradicted;
-    counts.leaves_per_step.push_back(report->leaves);
-    run.is_complete = !report->guarantee_given_up && report->waiting == 0;
-    if (!run.is_complete || (options.max_nodes > 0 && tree.node_count() >= options.max_nodes)) {
-      run.is_complete = false;
-      break;
-    }
+  StrictTree grown(exploration, options);
+  while (grown.extend()) {
   }
-  counts.tree_nodes = tree.node_count();
-  counts.maps_built = tree.maps_built();
-  const HypothesisTree::Memory memory = tree.memory();
+  SearchRun run;
+  run.is_complete = grown.is_complete();
+  MapCounts& counts = run.counts;
+  counts.tree_nodes = grown.nodes();
+  counts.maps_built = grown.maps();
+  counts.view_mismatches = grown.mismatches();
+  counts.leaves_per_step = grown.leaves();
+  const HypothesisTree::Memory memory = grown.tree().memory();
   run.bytes_per_node = memory.bytes_of_nodes / memory.nodes;
   run.cpu_s = cpu_time_s() - start_s;
-  counts.region_leaves_per_step = region_leaves(exploration, options, counts.leaves_per_step);
   // Looking at every map afterwards is not part of the search.
   const auto max_codes = static_cast<std::size_t>(options.max_codes);
-  tree.for_each_map(
-      [&](const Hypothesis&, const TopologicalMap& map) { count_final(map, counts); });
+  if (run.is_complete && !grown.is_refuted()) {
+    grown.tree().for_each_map(
+        [&](const Hypothesis&, const TopologicalMap& map) { count_final(map, counts); });
+  }
+  counts.region_leaves_per_step = region_leaves(exploration, options, counts.leaves_per_step);
   tidy(max_codes, &counts.optimal);
   tidy(max_codes, &counts.minimal_region);
   return run;

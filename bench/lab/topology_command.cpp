@@ -71,10 +71,11 @@ void add_sources(CLI::App& command, TopologyRequest* request, GridOptions* grid)
           ->type_name("SEED");
   on_grid->excludes(vectors)->excludes(random);
   vectors->excludes(random);
-  command.add_option("--count", request->count, "Random worlds")
-      ->needs(random)
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1'000'000));
+  CLI::Option* count = command.add_option("--count", request->count, "Random worlds")
+                           ->needs(random)
+                           ->capture_default_str()
+                           ->check(CLI::Range(1, 1'000'000));
+  add_noise_options(command, &request->noise, random, count);
   grid->options = {
       command
           .add_option("--walk", request->walk, "The way [all rows to and fro, then all columns]")
@@ -135,8 +136,10 @@ void add_output(CLI::App& command, TopologyRequest* request, GridOptions* grid) 
 
 /// Usage that CLI11 cannot express.
 void check_use(const TopologyRequest& request, const GridOptions& grid) {
-  if (request.grid.empty() && request.vectors_file.empty() && !request.seed) {
-    throw Failure(ExitCode::kUsage, "topology: one of --grid, --vectors and --random is required");
+  const bool is_tour = request.noise.tour_places > 0;
+  if (request.grid.empty() && request.vectors_file.empty() && !request.seed && !is_tour) {
+    throw Failure(ExitCode::kUsage,
+                  "topology: one of --grid, --vectors, --random and --tour is required");
   }
   for (const CLI::Option* option : grid.options) {
     if (request.grid.empty() && option->count() > 0) {
@@ -183,7 +186,12 @@ void add_topology_command(CLI::App& app, const Streams& streams, int* status) {
   add_output(*command, request.get(), grid.get());
   command->callback([request, grid, &out = streams.out, status] {
     check_use(*request, *grid);
-    if (request->seed) {
+    if (request->noise.tour_places > 0) {
+      *status = take_tour(request->noise, request->seed.value_or(1), request->as_json, out);
+    } else if (request->noise.is_noise) {
+      *status = explore_noisy_worlds(request->noise, *request->seed, request->count,
+                                     request->as_json, out);
+    } else if (request->seed) {
       *status = explore_random_worlds(*request, out);
     } else if (!request->vectors_file.empty()) {
       *status = explore_vectors(*request, out);

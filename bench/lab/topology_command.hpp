@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "bench/lab/noise_command.hpp"
 #include "bench/lab/search.hpp"
 
 namespace CLI {
@@ -26,6 +27,7 @@ struct TopologyRequest {
   std::string vectors_file;
   std::optional<std::uint64_t> seed;
   int count = 100;
+  NoiseRequest noise;
   SearchKind kind = SearchKind::kDepth;
   SearchOrder order = SearchOrder::kPaths;
   ExactSearchOptions search;

@@ -163,6 +163,8 @@ OptionObject describe(TopologyOptions* topology) {
                "How many go on with an arrival that nothing explains.")
       .number("log_prior_new_place", &topology->log_prior_new_place, {-1000, 0},
               "Of each place beyond the first, in nats.")
+      .number("log_penalty_unrecognised", &topology->log_penalty_unrecognised, {0, 10000},
+              "If stars may be misread, of each new place, which may be a known one, in nats.")
       .number("log_penalty_misread", &topology->log_penalty_misread, {0, 10000},
               "Of each star taken to be misread, in nats.")
       .number("log_penalty_missed_gateway", &topology->log_penalty_missed_gateway, {0, 10000},
@@ -173,8 +175,10 @@ OptionObject describe(TopologyOptions* topology) {
               "Of each place taken to be passed without notice, in nats.")
       .number("log_penalty_break", &topology->log_penalty_break, {0, 10000},
               "Of each observation left unexplained, in nats.")
+      .number("blame_margin", &topology->blame_margin, {0, 10000},
+              "A closure against the star is considered if a new place is not likelier by more.")
       .number("recognition_threshold", &topology->recognition_threshold, {0, 10000},
-              "Evidence above it may overrule a star or a link, in nats.")
+              "Evidence above it may overrule a link, in nats.")
       .number("max_log_evidence", &topology->max_log_evidence, {0, 1000},
               "Evidence of same places is cut to it, in nats.")
       .number("layout_margin", &topology->layout_margin, {0, 1e6},

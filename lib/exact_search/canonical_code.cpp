@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "star/isomorphism.hpp"
 #include "exact_search/exact_search.hpp"
+#include "star/isomorphism.hpp"
 
 namespace cairn {
 namespace {

@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "base/validator.hpp"
-#include "star/isomorphism.hpp"
 #include "exact_search/exact_search.hpp"
+#include "star/isomorphism.hpp"
 
 namespace cairn {
 namespace {

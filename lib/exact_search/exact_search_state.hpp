@@ -8,9 +8,9 @@
 #include "exact_search/exact_search.hpp"
 #include "exact_search/face_look_ahead.hpp"
 #include "exact_search/headings.hpp"
-#include "topology/link_regions.hpp"
 #include "exact_search/look_ahead.hpp"
 #include "exact_search/observed_walk.hpp"
+#include "topology/link_regions.hpp"
 #include "topology/path_marks.hpp"
 #include "topology/working_map.hpp"
 

@@ -32,7 +32,7 @@ struct ServiceOptions {
     topology.noisy_stars = true;
     topology.preference = Preference::kPosterior;
     topology.max_hypotheses = 200;
-    topology.log_prior_new_place = -8.0;
+    topology.log_prior_new_place = -4.0;  // log_penalty_unrecognised comes on top.
   }
 };
 

@@ -1,5 +1,7 @@
 #include "topology/experience_log.hpp"
 
+#include <algorithm>
+
 #include "base/check.hpp"
 
 namespace cairn {
@@ -30,6 +32,19 @@ ReadingMatcher* ExperienceLog::matcher_of(const View& view) {
   return &matchers_.back();
 }
 
+namespace {
+
+GatewayIndex departure_at(const WorkingMap& map,
+                          PlaceId place,
+                          const ReadingMatch& match,
+                          int departing) {
+  const int number =
+      match.is_possible() ? match.gateway_of_view[static_cast<std::size_t>(departing)] : -1;
+  return number < 0 ? kNoGateway : map.first_gateway(place) + number;
+}
+
+}  // namespace
+
 int ExperienceLog::departing_number(VisitId visit, Action action) const {
   const View& from = view(visit);
   return (from.arrival_gateway + action.turn) % gateway_count(from.star);
@@ -41,22 +56,50 @@ GatewayIndex ExperienceLog::departure(const WorkingMap& map,
                                       Action action) const {
   const PlaceId place = map.place_of(position);
   const ReadingMatch& match = matcher(visit).match(map.star(place), map.number_of(position));
-  if (!match.is_possible()) {
-    return kNoGateway;
-  }
-  const int number =
-      match.gateway_of_view[static_cast<std::size_t>(departing_number(visit, action))];
-  return number < 0 ? kNoGateway : map.first_gateway(place) + number;
+  return departure_at(map, place, match, departing_number(visit, action));
 }
 
-std::vector<int> ExperienceLog::gateways_at(VisitId visit, StarId star, int number) const {
-  const ReadingMatch& match = matcher(visit).match(star, number);
-  if (match.is_possible()) {
-    return match.gateway_of_view;
+std::vector<ExperienceLog::Departure> ExperienceLog::departures(const WorkingMap& map,
+                                                                GatewayIndex position,
+                                                                VisitId visit,
+                                                                Action action) const {
+  const PlaceId place = map.place_of(position);
+  const StarId star = map.star(place);
+  const int arrival = map.number_of(position);
+  const int departing = departing_number(visit, action);
+  const ReadingMatch& first = matcher(visit).match(star, arrival);
+  std::vector<Departure> found = {{departure_at(map, place, first, departing)}};
+  for (int choice = 1; choice < choice_count(view(visit), first); ++choice) {
+    const ReadingMatch& match = matcher(visit).match(star, arrival, choice);
+    const GatewayIndex by = departure_at(map, place, match, departing);
+    if (std::none_of(found.begin(), found.end(), [&](const Departure& d) { return d.by == by; })) {
+      found.push_back({by, match.log_likelihood - first.log_likelihood});
+    }
   }
-  std::vector<int> only_arrival(static_cast<std::size_t>(gateway_count(view(visit).star)), -1);
-  only_arrival[static_cast<std::size_t>(view(visit).arrival_gateway)] = number;
-  return only_arrival;
+  return found;
+}
+
+std::vector<int> ExperienceLog::gateways_at(VisitId visit,
+                                            StarId star,
+                                            int number,
+                                            int left_by) const {
+  const ReadingMatch& first = matcher(visit).match(star, number);
+  if (!first.is_possible()) {
+    std::vector<int> only_arrival(static_cast<std::size_t>(gateway_count(view(visit).star)), -1);
+    only_arrival[static_cast<std::size_t>(view(visit).arrival_gateway)] = number;
+    return only_arrival;
+  }
+  const VisitId next{visit.value + 1};
+  for (int choice = 1;
+       left_by >= 0 && choice < choice_count(view(visit), first) && next.value < size(); ++choice) {
+    const auto departing = static_cast<std::size_t>(departing_number(visit, action(next)));
+    const ReadingMatch& match = matcher(visit).match(star, number, choice);
+    if (first.gateway_of_view[departing] != left_by &&
+        match.gateway_of_view[departing] == left_by) {
+      return match.gateway_of_view;
+    }
+  }
+  return first.gateway_of_view;
 }
 
 std::size_t ExperienceLog::bytes() const {

@@ -35,14 +35,29 @@ class ExperienceLog {
   /// first reading.
   [[nodiscard]] int departing_number(VisitId visit, Action action) const;
   /// The same gateway in a map in which the robot came to this visit by `position`; kNoGateway
-  /// where the place's star lacks it.
+  /// where the place's star lacks it. Where a gateway was missed or imagined, the first choice is
+  /// taken.
   [[nodiscard]] GatewayIndex departure(const WorkingMap& map,
                                        GatewayIndex position,
                                        VisitId visit,
                                        Action action) const;
+  struct Departure {
+    GatewayIndex by = kNoGateway;
+    double log_likelihood = 0.0;  ///< Of the visit, compared with the first choice.
+  };
+  /// All that it may be, the first choice first; each once.
+  [[nodiscard]] std::vector<Departure> departures(const WorkingMap& map,
+                                                  GatewayIndex position,
+                                                  VisitId visit,
+                                                  Action action) const;
   /// For each gateway of the visit's first reading its number at the place; -1: none.
   /// @param number of the gateway of arrival at the place
-  [[nodiscard]] std::vector<int> gateways_at(VisitId visit, StarId star, int number) const;
+  /// @param left_by number of the gateway of departure at the place, to choose between missed or
+  /// imagined gateways; -1: not known
+  [[nodiscard]] std::vector<int> gateways_at(VisitId visit,
+                                             StarId star,
+                                             int number,
+                                             int left_by) const;
 
   [[nodiscard]] std::size_t bytes() const;
 

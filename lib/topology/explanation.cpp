@@ -84,6 +84,8 @@ bool HypothesisTree::has_taken(const Leaf& leaf,
              alternative.change.star == nodes[node].change.star &&
              alternative.amendment.star == amendment.star &&
              alternative.amendment.departure == amendment.departure &&
+             alternative.amendment.target == amendment.target &&
+             alternative.change.departure == nodes[node].change.departure &&
              alternative.position == nodes[node].position;
     }
   }

@@ -69,8 +69,8 @@ void HypothesisTree::keep_best(ExtendReport& report) {
 Leaf HypothesisTree::grow(const Candidate& candidate) {
   TreeNodes& nodes = engine_->nodes;
   Leaf leaf = candidate.leaf;
-  const bool leaves_node =
-      candidate.kind != StepKind::kKnownLink || assertions_.names(candidate.leaf.visit);
+  const bool leaves_node = candidate.kind != StepKind::kKnownLink || candidate.is_departure_open ||
+                           assertions_.names(candidate.leaf.visit);
   if (leaves_node) {
     TreeNode node;
     node.kind = candidate.kind;
@@ -101,7 +101,7 @@ void HypothesisTree::defer(const Leaf& leaf, ExtendReport& report) {
 // New places wait in their parent: most of them are never needed.
 void HypothesisTree::defer(const Candidate& candidate, ExtendReport& report) {
   Rank rank = waiting_rank_of(candidate.leaf);
-  const bool is_only_one = candidate.amendment < 0 &&
+  const bool is_only_one = candidate.amendment < 0 && !candidate.is_departure_open &&
                            engine_->experience.view(candidate.leaf.visit).others.empty() &&
                            !assertions_.names(candidate.leaf.visit);
   if (candidate.kind == StepKind::kNewPlace && is_only_one) {

@@ -241,6 +241,7 @@ HypothesisTree::Candidate HypothesisTree::candidate_of(const Leaf& leaf,
   next.misreading = alternative.misreading;
   next.log_likelihood = alternative.log_likelihood;
   next.change = alternative.change;
+  next.is_departure_open = alternative.is_departure_open;
   if (alternative.amendment.kind != MapChange::Kind::kNothing) {
     const WorkingMap& map = engine.cursor.map();
     const PlaceId place = map.place_of(alternative.amendment.departure);

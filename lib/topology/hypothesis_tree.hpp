@@ -232,6 +232,7 @@ class HypothesisTree {
     std::int32_t amendment = -1;  ///< Position in amendments_.
     std::int32_t paths_added = 0;
     GatewayIndex parent_position = kNoGateway;
+    bool is_departure_open = false;  ///< As Alternative::is_departure_open.
   };
 
   Result<ExtendReport> arrive(Action action,
@@ -304,6 +305,8 @@ class HypothesisTree {
     MapCursor cursor;
     Successors successors;
     std::shared_ptr<const StarCatalogue> shared_stars;  // For maps that are handed out.
+    std::optional<Lineage> followed;  // Of the leaf that was last asked about a place's support.
+    HypothesisId followed_node;
   };
   std::unique_ptr<Engine> engine_;
   std::vector<Leaf> live_;  // Children where their parent was: in the order of the tree.

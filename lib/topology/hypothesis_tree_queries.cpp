@@ -165,13 +165,16 @@ TopologicalMap HypothesisTree::map_of(const Leaf& leaf, int visits) const {
   placed.reserve(static_cast<std::size_t>(visits));
   for (VisitId visit{0}; visit.value < visits; ++visit.value) {
     const GatewayRef arrival = lineage.arrivals()[visit.index()];
+    const GatewayRef departure = lineage.departures()[visit.index()];
+    const int left_by = departure.place.is_valid() ? departure.gateway : -1;
     const StarId star = lineage.map().star(arrival.place);
     const View& view = engine.experience.view(visit);
     const bool is_plain =
         view.others.empty() && engine.experience.matcher(visit).is_exact(star, arrival.gateway);
     placed.push_back({arrival, view.arrival_gateway,
-                      is_plain ? std::vector<int>{}
-                               : engine.experience.gateways_at(visit, star, arrival.gateway),
+                      is_plain
+                          ? std::vector<int>{}
+                          : engine.experience.gateways_at(visit, star, arrival.gateway, left_by),
                       engine.experience.is_carried(visit)});
   }
   return {engine.shared_stars, lineage.map(), placed};
@@ -190,13 +193,19 @@ Leaf HypothesisTree::before(const Leaf& leaf, VisitId visit) const {
   return earlier;
 }
 
-/// How many visits saw the place's star as the hypothesis takes it to be.
+/// How many visits saw the place's star as the hypothesis takes it to be. All places of one leaf
+/// are told by following it once.
 int HypothesisTree::support_of(const Leaf& leaf, PlaceId place) const {
-  Lineage lineage = lineage_of(leaf);
-  while (lineage.visit() < leaf.visit) {
-    lineage.advance();
+  Engine& engine = *engine_;
+  const HypothesisId node = engine.nodes[leaf.node].id;
+  if (!engine.followed || engine.followed_node != node || engine.followed->visit() != leaf.visit) {
+    engine.followed.emplace(lineage_of(leaf));
+    engine.followed_node = node;
+    while (engine.followed->visit() < leaf.visit) {
+      engine.followed->advance();
+    }
   }
-  return lineage.support(place);
+  return engine.followed->support(place);
 }
 
 HypothesisId HypothesisTree::parent_of(const TreeNode& node) const {

@@ -19,6 +19,7 @@ Lineage::Lineage(const TreeNodes& nodes,
   const TreeNode& root = nodes[branch_.front()];
   map_.start(root.change.star, root.visit);
   arrivals_.push_back(map_.ref(position_));
+  departures_.emplace_back();
 }
 
 void Lineage::advance() {
@@ -36,6 +37,7 @@ void Lineage::advance() {
     position_ = map_.leads_to(departure);
   }
   arrivals_.push_back(map_.ref(position_));
+  departures_.emplace_back();
 }
 
 void Lineage::take(const TreeNode& node) {
@@ -45,6 +47,7 @@ void Lineage::take(const TreeNode& node) {
     map_.apply(node.change);
     renumber(place, before, node.change);
   } else {
+    leave(node);
     map_.apply(node.change);
   }
   if (!node.is_part) {
@@ -52,18 +55,30 @@ void Lineage::take(const TreeNode& node) {
   }
 }
 
-/// A gateway more or less moves the numbers of those clockwise of it.
+/// Where the visit missed or imagined a gateway, only the step tells by which one the robot left.
+void Lineage::leave(const TreeNode& node) {
+  const GatewayIndex by =
+      node.kind == StepKind::kKnownLink ? map_.leads_to(node.position) : node.change.departure;
+  if (by != kNoGateway && map_.place_of(by) == arrivals_.back().place) {
+    departures_.back() = map_.ref(by);
+  }
+}
+
+/// A gateway more or less moves the numbers of those clockwise of it. Whoever woke up looking into
+/// one that is dropped looked into none.
 void Lineage::renumber(PlaceId place, int before, const MapChange& change) {
   const int gateways = map_.gateway_count(place);
   const int first_moved = change.target + (gateways < before ? 1 : 0);
-  for (GatewayRef& arrival : arrivals_) {
-    if (arrival.place == place && gateways != before && arrival.gateway >= first_moved) {
-      arrival.gateway += gateways - before;
+  const auto move = [&](GatewayRef& used) {
+    if (used.place == place && gateways != before && used.gateway >= first_moved) {
+      used.gateway += gateways - before;
     }
-    if (arrival.place == place) {
-      arrival.gateway %= gateways;  // One that turned out not to exist: the next one clockwise.
+    if (used.place == place) {
+      used.gateway %= gateways;  // One that turned out not to exist: the next one clockwise.
     }
-  }
+  };
+  std::for_each(arrivals_.begin(), arrivals_.end(), move);
+  std::for_each(departures_.begin(), departures_.end(), move);
 }
 
 int Lineage::support(PlaceId place) const {

@@ -27,11 +27,15 @@ class Lineage {
   [[nodiscard]] NodeIndex node() const { return branch_[next_ - 1]; }
   /// By visit, the gateway of arrival at its place, as the place is now.
   [[nodiscard]] const std::vector<GatewayRef>& arrivals() const { return arrivals_; }
+  /// By visit, the gateway by which the robot left, as the place is now; no place where no step
+  /// tells it.
+  [[nodiscard]] const std::vector<GatewayRef>& departures() const { return departures_; }
   /// Visits to a place so far that are not blamed.
   [[nodiscard]] int support(PlaceId place) const;
 
  private:
   void take(const TreeNode& node);
+  void leave(const TreeNode& node);
   void renumber(PlaceId place, int before, const MapChange& change);
 
   const TreeNodes* nodes_;
@@ -41,6 +45,7 @@ class Lineage {
   std::size_t next_ = 1;
   GatewayIndex position_ = kNoGateway;
   std::vector<GatewayRef> arrivals_;
+  std::vector<GatewayRef> departures_;
 };
 
 }  // namespace cairn

@@ -1,6 +1,7 @@
 // Steps that blame an observation: what a map may do about a view that contradicts it.
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "star/star_edits.hpp"
@@ -20,6 +21,18 @@ bool has_place_twice(const WorkingMap& map, GatewayIndex through) {
       }
       passed.push_back(map.place_of(entry));
       exit = map.through(entry);
+    }
+  }
+  return false;
+}
+
+/// Whether a path comes back to this gateway: paths are chains.
+bool is_on_ring(const WorkingMap& map, GatewayIndex gateway) {
+  GatewayIndex exit = gateway;
+  while (exit != kNoGateway && map.is_linked(exit)) {
+    exit = map.through(map.leads_to(exit));
+    if (exit == gateway) {
+      return true;
     }
   }
   return false;
@@ -53,8 +66,8 @@ void Successors::consider_misreading(GatewayIndex departure,
   misread.change = {MapChange::Kind::kNothing, {}, arrival.visit, departure, target};
   misread.log_likelihood = match.log_likelihood + recognition(target, match, arrival.visit);
   if (map_.is_pending(departure)) {
-    if (!is_worth_blaming(misread.log_likelihood, match) ||
-        refutation_of_link(departure, target) != Refutation::kNone) {
+    misread.log_likelihood -= penalty_of_paths(departure, target);
+    if (!is_worth_blaming(misread.log_likelihood)) {
       return;
     }
     misread.change.kind = MapChange::Kind::kLink;
@@ -62,17 +75,28 @@ void Successors::consider_misreading(GatewayIndex departure,
   add(misread, arrival);
 }
 
-/// A closure against the star takes more than the symbols: the place must be recognised.
-bool Successors::is_worth_blaming(double log_likelihood, const ReadingMatch& match) const {
-  return !evidence_->same_place ||
-         log_likelihood - match.log_likelihood > options_->recognition_threshold;
+/// The robot may always have come to a new place instead.
+bool Successors::is_worth_blaming(double log_likelihood) const {
+  return log_likelihood + log_prior_of_closing() >=
+         log_prior_of_new_place() - options_->blame_margin;
+}
+
+/// A place is twice on a path if one of the stars on it was misread. No path is a ring.
+double Successors::penalty_of_paths(GatewayIndex departure, GatewayIndex target) {
+  const Refutation refutation = refutation_of_link(departure, target);
+  if (refutation == Refutation::kNone) {
+    return 0.0;
+  }
+  const bool is_forgivable =
+      refutation == Refutation::kPlaceTwiceOnPath && !are_ends_of_one_path(map_, departure, target);
+  return is_forgivable ? options_->log_penalty_misread : std::numeric_limits<double>::infinity();
 }
 
 // Earlier visits misread the star: the place is as this visit saw it.
-void Successors::consider_amending(GatewayIndex departure,
-                                   GatewayIndex target,
-                                   const ReadingMatch& match,
-                                   const Arrival& arrival) {
+void Successors::consider_amendments(GatewayIndex departure,
+                                     GatewayIndex target,
+                                     const ReadingMatch& match,
+                                     const Arrival& arrival) {
   const PlaceId place = map_.place_of(target);
   // A step corrects one star at most.
   if (!match.is_possible() || place == map_.place_of(departure) ||
@@ -80,45 +104,69 @@ void Successors::consider_amending(GatewayIndex departure,
     return;
   }
   const double ratio = recognition(target, match, arrival.visit);
-  if (map_.is_pending(departure) && !is_worth_blaming(ratio + match.log_likelihood, match)) {
+  if (map_.is_pending(departure) && !is_worth_blaming(ratio + match.log_likelihood)) {
     return;
   }
-  const std::optional<Amendment> amendment = amendment_of(place, target, match, arrival);
-  if (!amendment) {
-    return;
+  for (int choice = 0; choice < choice_count(arrival.view->view(), match); ++choice) {
+    const ReadingMatch& chosen =
+        arrival.view->match(map_.star(place), map_.number_of(target), choice);
+    std::optional<Amendment> amendment = amendment_of(place, target, chosen, choice, arrival);
+    if (amendment) {
+      amendment->log_likelihood += ratio;
+      consider_amending(departure, target, *amendment, arrival);
+    }
   }
+}
+
+void Successors::consider_amending(GatewayIndex departure,
+                                   GatewayIndex target,
+                                   const Amendment& amendment,
+                                   const Arrival& arrival) {
   Alternative amended;
   amended.kind = StepKind::kAmended;
-  amended.misreading = match.misreading;
+  amended.misreading = amendment.misreading;
   amended.departure = departure;
-  amended.target = {place, amendment->arrival_number};
-  amended.amendment = amendment->change;
-  amended.position = map_.end_gateway() + amendment->arrival_number;
-  amended.log_likelihood = amendment->log_likelihood + ratio;
+  amended.target = {map_.place_of(target), amendment.arrival_number};
+  amended.amendment = amendment.change;
+  amended.position = map_.end_gateway() + amendment.arrival_number;
   amended.change = {MapChange::Kind::kNothing, {}, arrival.visit, departure, amended.position};
   if (map_.is_pending(departure)) {
     amended.change.kind = MapChange::Kind::kLink;
   }
-  map_.apply(amendment->change);
-  const bool is_possible = map_.is_pending(departure) ? can_link(departure, amended.position)
-                                                      : !repeats_a_place_around(map_, place);
-  map_.undo(amendment->change);
-  if (map_.is_pending(departure)) {
-    departing_path_.depart(departure);
-  }
-  if (is_possible) {
+  amended.log_likelihood =
+      amendment.log_likelihood - penalty_of_amending(amended, departure, amended.position);
+  if (!map_.is_pending(departure) || is_worth_blaming(amended.log_likelihood)) {
     add(amended, arrival);
   }
+}
+
+/// Of what the corrected star and the link that then follows do to the paths.
+double Successors::penalty_of_amending(const Alternative& amended,
+                                       GatewayIndex departure,
+                                       GatewayIndex target) {
+  const PlaceId place = map_.place_of(amended.amendment.departure);
+  const bool links = map_.is_pending(departure);
+  const bool was_repeated = repeats_a_place_around(map_, place);
+  map_.apply(amended.amendment);
+  double penalty = penalty_around(place);
+  penalty = (was_repeated && std::isfinite(penalty) ? 0.0 : penalty) +
+            (links ? penalty_of_link(departure, target) : 0.0);
+  map_.undo(amended.amendment);
+  if (links) {
+    departing_path_.depart(departure);
+  }
+  return penalty;
 }
 
 /// The place's star as this visit saw it. Every visit that agreed with the old star is to blame.
 std::optional<Successors::Amendment> Successors::amendment_of(PlaceId place,
                                                               GatewayIndex target,
                                                               const ReadingMatch& match,
+                                                              int choice,
                                                               const Arrival& arrival) {
   const View& view = arrival.view->view();
-  const std::optional<AmendedStar> amended =
-      cairn::amended(view, match.reading, stars_->star(map_.star(place)), map_.number_of(target));
+  const std::optional<AmendedStar> amended = cairn::amended(
+      view, match.reading, stars_->star(map_.star(place)), map_.number_of(target), choice);
   if (!amended) {
     return std::nullopt;
   }
@@ -136,6 +184,7 @@ std::optional<Successors::Amendment> Successors::amendment_of(PlaceId place,
   amendment.arrival_number =
       amended->gateway_of_view[static_cast<std::size_t>(view.arrival_gateway)];
   amendment.log_likelihood = own - supporters * blame;
+  amendment.misreading = match.misreading;
   return amendment;
 }
 
@@ -188,7 +237,7 @@ void Successors::consider_inserting(GatewayIndex departure, const Arrival& arriv
     inserted.position = map_.end_gateway() + number;
     inserted.change = {MapChange::Kind::kInsertPlace, arrival.view->star_id(reading), arrival.visit,
                        departure, number};
-    inserted.log_likelihood = options_->log_prior_new_place + log_likelihood_of(view, reading) -
+    inserted.log_likelihood = log_prior_of_new_place() + log_likelihood_of(view, reading) -
                               options_->log_penalty_unnoticed;
     add(inserted, arrival);
   }
@@ -280,7 +329,7 @@ void Successors::consider_unseen_gateway(GatewayIndex departure,
   const double ratio = seen_as < 0 ? 0.0
                                    : evidence_->same_place({map_.first_visit(place), seen_as},
                                                            {arrival.visit, beside});
-  if (!(ratio > options_->recognition_threshold)) {
+  if (!is_worth_blaming(ratio - options_->log_penalty_missed_gateway)) {
     return;
   }
   const int gateways = cairn::gateway_count(view.star);
@@ -309,27 +358,36 @@ void Successors::consider_unseen_gateway(GatewayIndex departure,
   amended.change = {MapChange::Kind::kLink, {}, arrival.visit, departure, amended.position};
   amended.log_likelihood = std::min(ratio, options_->max_log_evidence) + view.log_likelihood -
                            supporters * options_->log_penalty_missed_gateway;
-  map_.apply(amendment);
-  const bool is_there = map_.is_pending(departure) && can_link(departure, amended.position);
-  map_.undo(amendment);
-  if (is_there) {
+  amended.log_likelihood -= penalty_of_amending(amended, departure, amended.position);
+  if (is_worth_blaming(amended.log_likelihood)) {
     add(amended, arrival);
   }
 }
 
-/// On one face, or on different parts of the map, and no place twice on a path.
-bool Successors::can_link(GatewayIndex departure, GatewayIndex target) {
+/// Of paths that pass a place twice since the place's star was corrected.
+double Successors::penalty_around(PlaceId place) const {
+  const GatewayIndex first = map_.first_gateway(place);
+  for (GatewayIndex at = first; at < first + map_.gateway_count(place); ++at) {
+    if (is_on_ring(map_, at)) {
+      return std::numeric_limits<double>::infinity();
+    }
+  }
+  return repeats_a_place_around(map_, place) ? options_->log_penalty_misread : 0.0;
+}
+
+/// Infinite unless on one face, or on different parts of the map.
+double Successors::penalty_of_link(GatewayIndex departure, GatewayIndex target) {
   bool is_reached = !options_->planar || map_.component(map_.place_of(departure)) !=
                                              map_.component(map_.place_of(target));
   for (GatewayIndex at = map_.next_in_ring(departure); !is_reached && at != departure;
        at = map_.next_in_ring(at)) {
     is_reached = at == target;
   }
-  if (!is_reached || repeats_a_place_around(map_, map_.place_of(target))) {
-    return false;
+  if (!is_reached) {
+    return std::numeric_limits<double>::infinity();
   }
   departing_path_.depart(departure);
-  return refutation_of_link(departure, target) == Refutation::kNone;
+  return penalty_of_paths(departure, target);
 }
 
 // The robot left by a gateway that the place's star lacks: the star must be corrected first.
@@ -342,25 +400,40 @@ void Successors::from_unseen_gateway(GatewayIndex position, const Arrival& arriv
   amending.view = &experience_->matcher(before);
   amending.visit = before;
   const PlaceId place = map_.place_of(position);
-  const ReadingMatch& match = amending.view->match(map_.star(place), map_.number_of(position));
-  const std::optional<Amendment> amendment =
-      match.is_possible() ? amendment_of(place, position, match, amending) : std::nullopt;
-  if (!amendment) {
-    return;
+  const StarId star = map_.star(place);
+  const int number = map_.number_of(position);
+  const auto left_by = static_cast<std::size_t>(
+      experience_->departing_number(before, experience_->action(arrival.visit)));
+  const ReadingMatch& charged = amending.view->match(star, number);
+  for (int choice = 0; choice < choice_count(amending.view->view(), charged); ++choice) {
+    const ReadingMatch& match = amending.view->match(star, number, choice);
+    const std::optional<Amendment> amendment =
+        match.gateway_of_view[left_by] < 0 ? amendment_of(place, position, match, choice, amending)
+                                           : std::nullopt;
+    if (amendment) {
+      depart_after_amending(place, *amendment, charged.log_likelihood, arrival);
+    }
   }
+}
+
+void Successors::depart_after_amending(PlaceId place,
+                                       const Amendment& amendment,
+                                       double charged,
+                                       const Arrival& arrival) {
+  const VisitId before{arrival.visit.value - 1};
   Arrival after = arrival;
-  after.amendment = amendment->change;
+  after.amendment = amendment.change;
   // What the visit before was charged for misreading the star is given back.
-  after.log_before += amendment->log_likelihood - match.log_likelihood;
-  map_.apply(amendment->change);
+  after.log_before = amendment.log_likelihood - charged;
+  map_.apply(amendment.change);
   const GatewayIndex departure =
-      experience_->departure(map_, map_.first_gateway(place) + amendment->arrival_number, before,
+      experience_->departure(map_, map_.first_gateway(place) + amendment.arrival_number, before,
                              experience_->action(arrival.visit));
-  if (departure != kNoGateway && map_.is_pending(departure) &&
-      !repeats_a_place_around(map_, place)) {
+  after.log_before -= penalty_around(place);
+  if (departure != kNoGateway && map_.is_pending(departure) && std::isfinite(after.log_before)) {
     at_pending_gateway(departure, after);
   }
-  map_.undo(amendment->change);
+  map_.undo(amendment.change);
 }
 
 Alternative Successors::unexplained(const Situation& situation) {
@@ -368,7 +441,7 @@ Alternative Successors::unexplained(const Situation& situation) {
   const VisitId before{situation.visit.value - 1};
   Alternative broken;
   broken.kind = StepKind::kContradiction;
-  broken.log_likelihood = options_->log_prior_new_place - options_->log_penalty_break;
+  broken.log_likelihood = log_prior_of_new_place() - options_->log_penalty_break;
   if (!experience_->is_carried(situation.visit)) {
     broken.departure = experience_->departure(map_, situation.position, before,
                                               experience_->action(situation.visit));

@@ -50,4 +50,15 @@ class PathMarks {
   return end != kNoGateway && map.leads_to(end) == onward ? end : kNoGateway;
 }
 
+/// Whether a link between the two would close a path to a ring. @pre both are pending
+[[nodiscard]] inline bool are_ends_of_one_path(const WorkingMap& map,
+                                               GatewayIndex a,
+                                               GatewayIndex b) {
+  GatewayIndex onward = map.through(a);
+  while (onward != kNoGateway && !map.is_pending(onward) && map.is_linked(onward)) {
+    onward = map.through(map.leads_to(onward));
+  }
+  return onward == b;
+}
+
 }  // namespace cairn

@@ -1,6 +1,7 @@
 #include "topology/reading_match.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/check.hpp"
 #include "star/isomorphism.hpp"
@@ -12,8 +13,17 @@ namespace {
 /// How the star of one reading and that of a place agree.
 struct Agreement {
   Misreading misreading = Misreading::kNone;
-  int odd_gateway = -1;  ///< The missed one of the place, or the false one of the reading.
-  int alternatives = 0;  ///< As ReadingMatch::alternatives.
+  /// The missed one of the place, or the false one of the reading: any of these. First those
+  /// without which all else is alike; for the others the fragments were misread, too.
+  std::vector<int> odd_gateways = {};
+  int alike = 0;              ///< How many leave all else alike.
+  int odd_gateway = -1;       ///< The one that is taken.
+  bool is_misjoined = false;  ///< Without it, the fragments differ.
+
+  void choose(int choice) {
+    odd_gateway = odd_gateways.empty() ? -1 : odd_gateways[static_cast<std::size_t>(choice)];
+    is_misjoined = odd_gateway >= 0 && choice >= alike;
+  }
 };
 
 /// A star and the gateway by which it is entered.
@@ -31,21 +41,23 @@ Entered entered(const View& view, int reading) {
   return {star_of(view, reading), arrival_gateway_of(view, reading)};
 }
 
-/// The gateways without which the one star looks like the other; the first clockwise is taken.
+/// The gateways without which the one star looks like the other, then all others but the arrival.
 std::optional<Agreement> agreement_but_for_one(const Entered& more,
                                                const Entered& less,
                                                Misreading misreading) {
   const ViewCode wanted = view_code(less.star, less.by);
   Agreement found{misreading};
+  std::vector<int> others;
   for (int step = 1; step < more.gateways; ++step) {
     const int odd = (more.by + step) % more.gateways;
     const std::optional<Star> rest = without_gateway(more.star, odd);
-    if (rest && view_code(*rest, odd < more.by ? more.by - 1 : more.by) == wanted) {
-      found.odd_gateway = found.alternatives == 0 ? odd : found.odd_gateway;
-      ++found.alternatives;
-    }
+    const bool is_alike = rest && view_code(*rest, odd < more.by ? more.by - 1 : more.by) == wanted;
+    (is_alike ? found.odd_gateways : others).push_back(odd);
   }
-  return found.alternatives > 0 ? std::optional(found) : std::nullopt;
+  found.alike = static_cast<int>(found.odd_gateways.size());
+  found.odd_gateways.insert(found.odd_gateways.end(), others.begin(), others.end());
+  found.choose(0);
+  return found;
 }
 
 std::optional<Agreement> agreement(const Entered& seen, const Entered& place) {
@@ -63,16 +75,17 @@ std::optional<Agreement> agreement(const Entered& seen, const Entered& place) {
   }
 }
 
-double cost_of(Misreading misreading, const MisreadingCosts& costs) {
-  switch (misreading) {
+double cost_of(const Agreement& how, const MisreadingCosts& costs) {
+  const double of_fragments = how.is_misjoined ? costs.log_penalty_misread : 0.0;
+  switch (how.misreading) {
     case Misreading::kNone:
       return 0.0;
     case Misreading::kFragments:
       return costs.log_penalty_misread;
     case Misreading::kMissedGateway:
-      return costs.log_penalty_missed_gateway;
+      return costs.log_penalty_missed_gateway + of_fragments;
     case Misreading::kFalseGateway:
-      return costs.log_penalty_false_gateway;
+      return costs.log_penalty_false_gateway + of_fragments;
   }
   CAIRN_CHECK(!"a misreading outside of its enumeration");
   return 0.0;
@@ -139,10 +152,23 @@ int likeliest_reading(const View& view) {
 
 }  // namespace
 
+int choice_count(const View& view, const ReadingMatch& match) {
+  const int gateways = gateway_count(star_of(view, match.reading));
+  switch (match.misreading) {
+    case Misreading::kMissedGateway:
+      return gateways;  // The place has one more, but that of arrival was seen.
+    case Misreading::kFalseGateway:
+      return gateways - 1;
+    default:
+      return 1;
+  }
+}
+
 ReadingMatch match_reading(const View& view,
                            const Star& place_star,
                            int arrival_gateway_of_place,
-                           const MisreadingCosts& costs) {
+                           const MisreadingCosts& costs,
+                           int choice) {
   const Entered place{place_star, arrival_gateway_of_place};
   ReadingMatch best;
   Agreement best_agreement;
@@ -153,15 +179,18 @@ ReadingMatch match_reading(const View& view,
       continue;  // Also where nothing is possible.
     }
     const std::optional<Agreement> how = agreement(seen, place);
-    if (how && own - cost_of(how->misreading, costs) > best.log_likelihood) {
-      best.log_likelihood = own - cost_of(how->misreading, costs);
+    if (how && own - cost_of(*how, costs) > best.log_likelihood) {
+      best.log_likelihood = own - cost_of(*how, costs);
       best.reading = reading;
       best_agreement = *how;
     }
   }
   if (best.is_possible()) {
     best.misreading = best_agreement.misreading;
-    best.alternatives = best_agreement.alternatives;
+    best.alternatives = best_agreement.alike;
+    best.log_likelihood += cost_of(best_agreement, costs);
+    best_agreement.choose(choice);
+    best.log_likelihood -= cost_of(best_agreement, costs);
     best.gateway_of_view = by_gateway_of_first(
         view, best.reading, gateways_at_place(entered(view, best.reading), place, best_agreement));
   }
@@ -171,13 +200,15 @@ ReadingMatch match_reading(const View& view,
 std::optional<AmendedStar> amended(const View& view,
                                    int reading,
                                    const Star& place_star,
-                                   int arrival_gateway_of_place) {
+                                   int arrival_gateway_of_place,
+                                   int choice) {
   const Entered seen = entered(view, reading);
   const Entered place{place_star, arrival_gateway_of_place};
-  const std::optional<Agreement> how = agreement(seen, place);
+  std::optional<Agreement> how = agreement(seen, place);
   if (!how || how->misreading == Misreading::kNone) {
     return std::nullopt;
   }
+  how->choose(choice);
   // The numbers begin at the lowest gateway of the place that stays, so that none before it is new.
   const std::vector<int> at_place = gateways_at_place(seen, place, *how);
   int first = arrival_gateway_of(view, reading);
@@ -222,17 +253,21 @@ ReadingMatcher::ReadingMatcher(const View& view,
   is_strict_ = view.others.empty() && least == std::numeric_limits<double>::infinity();
 }
 
-const ReadingMatch& ReadingMatcher::remembered(StarId star, int gateway) {
-  if (star.index() >= memo_.size()) {
-    memo_.resize(star.index() + 1);
+const ReadingMatch& ReadingMatcher::remembered(StarId star, int gateway, int choice) {
+  if (static_cast<std::size_t>(choice) >= memo_.size()) {
+    memo_.resize(static_cast<std::size_t>(choice) + 1);
   }
-  std::vector<std::optional<ReadingMatch>>& of_star = memo_[star.index()];
+  auto& memo = memo_[static_cast<std::size_t>(choice)];
+  if (star.index() >= memo.size()) {
+    memo.resize(star.index() + 1);
+  }
+  std::vector<std::optional<ReadingMatch>>& of_star = memo[star.index()];
   if (of_star.empty()) {
     of_star.resize(static_cast<std::size_t>(stars_->gateway_count(star)));
   }
   std::optional<ReadingMatch>& answer = of_star[static_cast<std::size_t>(gateway)];
   if (!answer) {
-    answer = match_reading(*view_, stars_->star(star), gateway, costs_);
+    answer = match_reading(*view_, stars_->star(star), gateway, costs_, choice);
   }
   return *answer;
 }

@@ -33,8 +33,8 @@ struct ReadingMatch {
   double log_likelihood = -std::numeric_limits<double>::infinity();
   Misreading misreading = Misreading::kNone;  ///< What the best reading is blamed for.
   int reading = 0;  ///< The best one; the first of those that are equally good.
-  /// Gateways that could equally well be the missed or the false one: 1 or more for
-  /// kMissedGateway and kFalseGateway, else 0. The first one clockwise from the arrival is taken.
+  /// Gateways that could equally well be the missed or the false one: 0 if none is, or if the
+  /// fragments were misread as well.
   int alternatives = 0;
   /// For each gateway of the view's first reading the place's gateway that it is; -1: none of them,
   /// as it is a false one or the best reading does not have it.
@@ -46,17 +46,25 @@ struct ReadingMatch {
   friend bool operator==(const ReadingMatch&, const ReadingMatch&) = default;
 };
 
+/// How many gateways could be the missed or the false one, or 1 if there is none such. First come
+/// those that could equally well be it, then those that take misread fragments as well; clockwise
+/// from the arrival.
+[[nodiscard]] int choice_count(const View& view, const ReadingMatch& match);
+
 /// Compares every reading of the view, entered by its arrival gateway, with the star of a place,
-/// entered by one of its own. At most one gateway may be missed or false, all else must then be
-/// alike (see without_gateway()); stars with more differences cannot be of one place. Gateways keep
-/// their clockwise order, and the arrival is the arrival.
+/// entered by one of its own. At most one gateway may be missed or false; if without it all else is
+/// not alike (see without_gateway()), the fragments were misread too. Stars with more differences
+/// cannot be of one place. Gateways keep their clockwise order, and the arrival is the arrival.
+/// @param choice which gateway is taken for the missed or the false one
 /// Source: test (a) of matching views in Kuipers et al., ICRA 2004, Sec. III-D, with an allowance
 /// for perception that errs.
-/// @pre view and place_star are valid, place_star has the gateway, costs are not negative
+/// @pre view and place_star are valid, place_star has the gateway, costs are not negative; the
+/// choice is below choice_count()
 [[nodiscard]] ReadingMatch match_reading(const View& view,
                                          const Star& place_star,
                                          int arrival_gateway_of_place,
-                                         const MisreadingCosts& costs);
+                                         const MisreadingCosts& costs,
+                                         int choice = 0);
 
 /// The star of a place as one visit corrects it, told as MapChange::kOtherStar expects it.
 struct AmendedStar {
@@ -78,7 +86,8 @@ struct AmendedStar {
 [[nodiscard]] std::optional<AmendedStar> amended(const View& view,
                                                  int reading,
                                                  const Star& place_star,
-                                                 int arrival_gateway_of_place);
+                                                 int arrival_gateway_of_place,
+                                                 int choice = 0);
 
 /// Answers match_reading() of one view for the stars of a catalogue, each compared once. The
 /// question of exact agreement is one comparison of view classes.
@@ -98,11 +107,11 @@ class ReadingMatcher {
   /// What match_reading() says of the place with this star, entered by this gateway.
   /// @return valid as long as the matcher
   /// @pre the catalogue has the star, and it the gateway
-  [[nodiscard]] const ReadingMatch& match(StarId star, int gateway) {
+  [[nodiscard]] const ReadingMatch& match(StarId star, int gateway, int choice = 0) {
     if (is_exact(star, gateway)) {
       return exact_[static_cast<std::size_t>(gateway)];
     }
-    return is_strict_ ? impossible_ : remembered(star, gateway);
+    return is_strict_ ? impossible_ : remembered(star, gateway, choice);
   }
 
   [[nodiscard]] const View& view() const { return *view_; }
@@ -112,7 +121,7 @@ class ReadingMatcher {
   }
 
  private:
-  [[nodiscard]] const ReadingMatch& remembered(StarId star, int gateway);
+  [[nodiscard]] const ReadingMatch& remembered(StarId star, int gateway, int choice);
 
   const View* view_;
   const StarCatalogue* stars_;
@@ -122,8 +131,8 @@ class ReadingMatcher {
   std::vector<ReadingMatch> exact_;  ///< Of the likeliest reading, by gateway of the place.
   ReadingMatch impossible_;
   bool is_strict_ = false;  ///< One reading, and no misreading can be.
-  /// By star and gateway. Answers stay where they are while the outer vector grows.
-  std::vector<std::vector<std::optional<ReadingMatch>>> memo_;
+  /// By choice, star and gateway. Answers stay where they are while the outer vectors grow.
+  std::vector<std::vector<std::vector<std::optional<ReadingMatch>>>> memo_;
 };
 
 }  // namespace cairn

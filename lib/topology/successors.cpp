@@ -18,21 +18,25 @@ bool PlaceOrder::allows(std::optional<PlaceId> place) const {
 void Successors::list(const Situation& situation, Detail detail, std::vector<Alternative>& found) {
   found.clear();
   found_ = &found;
-  const Arrival arrival{situation.visit, &experience_->matcher(situation.visit), &situation.order,
-                        detail};
+  Arrival arrival{situation.visit, &experience_->matcher(situation.visit), &situation.order,
+                  detail};
   if (experience_->is_carried(situation.visit)) {
     woken_up(arrival);
     return;
   }
   const VisitId before{situation.visit.value - 1};
-  const GatewayIndex departure = experience_->departure(map_, situation.position, before,
-                                                        experience_->action(situation.visit));
-  if (departure == kNoGateway) {
-    from_unseen_gateway(situation.position, arrival);
-  } else if (map_.is_pending(departure)) {
-    at_pending_gateway(departure, arrival);
-  } else {
-    at_known_link(departure, arrival);
+  const auto departures = experience_->departures(map_, situation.position, before,
+                                                  experience_->action(situation.visit));
+  arrival.is_departure_open = departures.size() > 1;
+  for (const ExperienceLog::Departure& departure : departures) {
+    arrival.log_before = departure.log_likelihood;
+    if (departure.by == kNoGateway) {
+      from_unseen_gateway(situation.position, arrival);
+    } else if (map_.is_pending(departure.by)) {
+      at_pending_gateway(departure.by, arrival);
+    } else {
+      at_known_link(departure.by, arrival);
+    }
   }
 }
 
@@ -55,7 +59,7 @@ void Successors::at_known_link(GatewayIndex departure, const Arrival& arrival) {
   if (is_noisy_) {
     if (!is_exact) {
       consider_misreading(departure, target, match, arrival);
-      consider_amending(departure, target, match, arrival);
+      consider_amendments(departure, target, match, arrival);
     }
     if (!is_exact || known.log_likelihood < 0.0) {
       consider_unnoticed(departure, arrival);
@@ -131,20 +135,41 @@ void Successors::consider_closing(GatewayIndex departure,
   closure.change = {MapChange::Kind::kLink, {}, arrival.visit, departure, target};
   if (!match.is_possible() || match.misreading != Misreading::kNone) {
     refute(Refutation::kOtherView, closure, arrival);
-    if (is_noisy_ && match.is_possible()) {
+    if (is_noisy_) {
       consider_misreading(departure, target, match, arrival);
-      consider_amending(departure, target, match, arrival);
+      consider_amendments(departure, target, match, arrival);
     }
     return;
   }
   const Refutation refutation = refutation_of_link(departure, target);
-  if (refutation != Refutation::kNone) {
+  const bool is_forgivable = is_noisy_ && refutation == Refutation::kPlaceTwiceOnPath &&
+                             !are_ends_of_one_path(map_, departure, target);
+  if (refutation != Refutation::kNone && !is_forgivable) {
     refute(refutation, closure, arrival);
     return;
   }
   closure.log_likelihood =
       match.log_likelihood + recognition(target, match, arrival.visit) - penalty;
+  if (is_forgivable) {  // One of the stars on the path was misread.
+    closure.kind = StepKind::kMisread;
+    closure.misreading = Misreading::kFragments;
+    closure.log_likelihood -= options_->log_penalty_misread;
+    if (!is_worth_blaming(closure.log_likelihood)) {
+      return refute(refutation, closure, arrival);
+    }
+  }
   add(closure, arrival);
+}
+
+double Successors::log_prior_of_new_place() const {
+  return options_->log_prior_new_place -
+         (options_->noisy_stars ? options_->log_penalty_unrecognised : 0.0);
+}
+
+/// Some gateway of many matches well by chance: before evidence is asked, each is equally likely.
+double Successors::log_prior_of_closing() const {
+  const bool weighs = options_->noisy_stars && evidence_->same_place;
+  return weighs ? -std::log(std::max(map_.pending_count() - 1, 1)) : 0.0;
 }
 
 Refutation Successors::refutation_of_link(GatewayIndex departure, GatewayIndex target) {
@@ -168,7 +193,7 @@ void Successors::consider_new_places(GatewayIndex departure, const Arrival& arri
     fresh.change = {MapChange::Kind::kPlace, arrival.view->star_id(reading), arrival.visit,
                     departure, number};
     fresh.position = map_.end_gateway() + number;
-    fresh.log_likelihood = options_->log_prior_new_place + log_likelihood_of(view, reading);
+    fresh.log_likelihood = log_prior_of_new_place() + log_likelihood_of(view, reading);
     if (options_->max_places && map_.place_count() >= *options_->max_places) {
       refute(Refutation::kTooManyPlaces, fresh, arrival);
     } else {
@@ -266,6 +291,9 @@ void Successors::add(Alternative alternative, const Arrival& arrival) {
     return;
   }
   alternative.log_likelihood += arrival.log_before;
+  if (alternative.change.kind == MapChange::Kind::kLink) {
+    alternative.log_likelihood += log_prior_of_closing();
+  }
   if (alternative.log_likelihood == -std::numeric_limits<double>::infinity()) {
     refute(Refutation::kEvidence, alternative, arrival);
     return;
@@ -276,6 +304,7 @@ void Successors::add(Alternative alternative, const Arrival& arrival) {
   if (arrival.amendment.kind != MapChange::Kind::kNothing) {
     alternative.amendment = arrival.amendment;
   }
+  alternative.is_departure_open = arrival.is_departure_open;
   found_->push_back(alternative);
 }
 

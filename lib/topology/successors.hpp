@@ -24,7 +24,9 @@ struct Alternative {
   MapChange change;
   GatewayIndex departure = kNoGateway;
   GatewayIndex position = kNoGateway;  ///< The gateway by which the robot came in, after the step.
-  /// The same for people; no place for a new one.
+  /// The visit before missed or imagined a gateway, and only its departure tells which.
+  bool is_departure_open = false;
+  /// The gateway of arrival for people; no place for a new one.
   GatewayRef target;
 };
 
@@ -96,12 +98,14 @@ class Successors {
     double log_before = 0.0;  ///< Of what happened on the way.
     StepKind on_the_way = StepKind::kStart;
     MapChange amendment = {};  ///< Which the map has taken for the time being.
+    bool is_departure_open = false;
   };
 
   struct Amendment {
     MapChange change;
     int arrival_number = 0;       ///< Of the gateway of arrival in the corrected star.
     double log_likelihood = 0.0;  ///< Of all visits to the place, compared with the star as it was.
+    Misreading misreading = Misreading::kNone;  ///< Of this visit, if the star were as it was.
   };
 
   void at_known_link(GatewayIndex departure, const Arrival& arrival);
@@ -111,6 +115,8 @@ class Successors {
                         GatewayIndex target,
                         double penalty,
                         const Arrival& arrival);
+  [[nodiscard]] double log_prior_of_new_place() const;
+  [[nodiscard]] double log_prior_of_closing() const;
   void list_other_faces(GatewayIndex departure, const Arrival& arrival);
   void consider_new_places(GatewayIndex departure, const Arrival& arrival);
   [[nodiscard]] Refutation refutation_of_link(GatewayIndex departure, GatewayIndex target);
@@ -120,14 +126,25 @@ class Successors {
                            GatewayIndex target,
                            const ReadingMatch& match,
                            const Arrival& arrival);
-  [[nodiscard]] bool is_worth_blaming(double log_likelihood, const ReadingMatch& match) const;
+  [[nodiscard]] bool is_worth_blaming(double log_likelihood) const;
+  [[nodiscard]] double penalty_of_paths(GatewayIndex departure, GatewayIndex target);
+  [[nodiscard]] double penalty_around(PlaceId place) const;
+  [[nodiscard]] double penalty_of_link(GatewayIndex departure, GatewayIndex target);
+  [[nodiscard]] double penalty_of_amending(const Alternative& amended,
+                                           GatewayIndex departure,
+                                           GatewayIndex target);
+  void consider_amendments(GatewayIndex departure,
+                           GatewayIndex target,
+                           const ReadingMatch& match,
+                           const Arrival& arrival);
   void consider_amending(GatewayIndex departure,
                          GatewayIndex target,
-                         const ReadingMatch& match,
+                         const Amendment& amendment,
                          const Arrival& arrival);
   [[nodiscard]] std::optional<Amendment> amendment_of(PlaceId place,
                                                       GatewayIndex target,
                                                       const ReadingMatch& match,
+                                                      int choice,
                                                       const Arrival& arrival);
   [[nodiscard]] bool was_used(GatewayIndex at) const;
   void consider_unnoticed(GatewayIndex departure, const Arrival& arrival);
@@ -139,8 +156,11 @@ class Successors {
                                GatewayIndex known,
                                int beside,
                                const Arrival& arrival);
-  [[nodiscard]] bool can_link(GatewayIndex departure, GatewayIndex target);
   void from_unseen_gateway(GatewayIndex position, const Arrival& arrival);
+  void depart_after_amending(PlaceId place,
+                             const Amendment& amendment,
+                             double charged,
+                             const Arrival& arrival);
 
   [[nodiscard]] double recognition(GatewayIndex target,
                                    const ReadingMatch& match,

@@ -30,23 +30,34 @@ struct TopologyOptions {
   /// repair search is made when all are dead.
   bool noisy_stars = false;
   double log_prior_new_place = -1.0;  ///< Of each place beyond the first. [-1000, 0]
-  double log_penalty_misread = 10.0;  ///< Of each star whose fragments were misread. [0, 10000]
-  double log_penalty_missed_gateway = 8.0;  ///< Of each gateway overlooked. [0, 10000]
-  double log_penalty_false_gateway = 8.0;   ///< Of each gateway seen that is not there. [0, 10000]
+  /// Of each new place that a travel leads to, if stars may be misread: it may be a known one. As
+  /// evidence is asked about the first visit to a place only, a part of the map that is there twice
+  /// explains as much as one that is there once: this keeps maps simple. Where evidence is asked,
+  /// each closure has the prior of one of all pending gateways. [0, 10000]
+  double log_penalty_unrecognised = 4.0;
+  // Minus the logarithm of how often it happens, and happens in this way rather than another: of
+  // every 20 stars one is misread, and may be taken for several kinds; of every 50 one lacks one of
+  // several gateways; fewer have one too many.
+  double log_penalty_misread = 4.5;  ///< Of each star whose fragments were misread. [0, 10000]
+  double log_penalty_missed_gateway = 5.0;  ///< Of each gateway overlooked. [0, 10000]
+  double log_penalty_false_gateway = 6.5;   ///< Of each gateway seen that is not there. [0, 10000]
   double log_penalty_unnoticed = 10.0;      ///< Of each place passed without notice. [0, 10000]
   double log_penalty_break = 16.0;          ///< Of each observation left unexplained. [0, 10000]
-  double recognition_threshold = 2.0;  ///< Evidence above it may overrule star or link. [0, 10000]
+  /// A closure against what was seen is considered if it is not less likely than a new place by
+  /// more than this. [0, 10000]
+  double blame_margin = 8.0;
+  double recognition_threshold = 2.0;  ///< Evidence above it may overrule a link. [0, 10000]
   double max_log_evidence = 20.0;      ///< Evidence of same places is cut to it. [0, 1000]
 
   Preference preference = Preference::kPosterior;
   /// Live hypotheses: the best ones, judged before the new layouts are known. The others wait and
   /// are taken up again when they come to be among the best. [1, 10000000]
-  int max_hypotheses = 2000;
+  int max_hypotheses = 200;
   /// Memory of nodes and leaves after each arrival: when it is full, the worse half of those that
   /// wait is given up, and again, then that of the live ones, and with them the guarantee.
   /// [65536, 1e12]
   std::int64_t max_bytes = 64 << 20;
-  int max_revivals = 200;          ///< Steps of waiting hypotheses per arrival. [0, 10000000]
+  int max_revivals = 100;          ///< Steps of waiting hypotheses per arrival. [0, 10000000]
   int max_repair_steps = 20000;    ///< Steps of one repair search. [0, 10000000]
   int max_broken_hypotheses = 32;  ///< How many survive an arrival nothing explains. [1, 10000000]
   double layout_margin = 50.0;     ///< Hypotheses further below the best are not laid out. [0, 1e6]

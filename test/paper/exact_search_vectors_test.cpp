@@ -10,10 +10,10 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "exact_search/exact_search.hpp"
 #include "support/explorations.hpp"
 #include "support/recorded_data.hpp"
 #include "support/stars.hpp"
-#include "exact_search/exact_search.hpp"
 
 namespace cairn::test {
 namespace {

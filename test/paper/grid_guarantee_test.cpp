@@ -10,10 +10,10 @@
 
 #include "bench/lab/truth.hpp"
 #include "bench/lab/worlds/random_world.hpp"
+#include "exact_search/exact_search.hpp"
 #include "star/isomorphism.hpp"
 #include "support/obvious_tree.hpp"
 #include "support/search_options.hpp"
-#include "exact_search/exact_search.hpp"
 
 namespace cairn::test {
 namespace {

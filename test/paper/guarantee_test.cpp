@@ -15,10 +15,10 @@
 #include "bench/lab/truth.hpp"
 #include "bench/lab/vectors_file.hpp"
 #include "bench/lab/worlds/random_exploration.hpp"
+#include "exact_search/exact_search.hpp"
 #include "support/obvious_tree.hpp"
 #include "support/recorded_data.hpp"
 #include "support/search_options.hpp"
-#include "exact_search/exact_search.hpp"
 
 namespace cairn::test {
 namespace {

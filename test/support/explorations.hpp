@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "support/lattice.hpp"
 #include "exact_search/exploration.hpp"
+#include "support/lattice.hpp"
 
 namespace cairn::test {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "star/star.hpp"
 #include "exact_search/exploration.hpp"
+#include "star/star.hpp"
 
 /// Maps for the obvious tree: see obvious_tree.hpp.
 namespace cairn::test {

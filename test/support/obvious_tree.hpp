@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "support/obvious_map.hpp"
 #include "exact_search/exploration.hpp"
 #include "exact_search/map_counts.hpp"
+#include "support/obvious_map.hpp"
 
 /// The tree of maps of Savelli and Kuipers, IROS 2004, in the shortest and most obvious way: every
 /// map is copied whole, faces and paths are walked anew for every question. Shares nothing with

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "support/obvious_tree.hpp"
 #include "exact_search/exact_search.hpp"
+#include "support/obvious_tree.hpp"
 
 namespace cairn::test {
 

@@ -213,19 +213,29 @@ Status validate(const MatchModel& model) {
 double match_log_likelihood_ratio(
     const Walk& walk, const MatchModel& model, int earlier, int later, int shift) {
   CAIRN_CHECK(0 <= earlier && earlier < later && later < static_cast<int>(walk.visits.size()));
-  const TrueVisit& first = walk.visits[static_cast<Index>(earlier)];
-  const TrueVisit& second = walk.visits[static_cast<Index>(later)];
-  const int count = static_cast<int>(first.gateways.size());
-  const int turned = (shift % count + count) % count;
-
+  const auto count = static_cast<int>(walk.visits[static_cast<Index>(earlier)].gateways.size());
   // The gateway of arrival is always one that is there.
   const int arrival = walk.exploration.steps[static_cast<Index>(later) - 1].arrival_gateway;
-  const auto there = static_cast<Index>((arrival + turned) % count);
-  const bool is_right = first.place == second.place &&
-                        first.gateways[there] == second.gateways[static_cast<Index>(arrival)];
+  const int known = ((arrival + shift) % count + count) % count;
+  return match_log_likelihood_ratio(walk, model, {{earlier}, known}, {{later}, arrival});
+}
 
+double match_log_likelihood_ratio(const Walk& walk,
+                                  const MatchModel& model,
+                                  SeenGateway known,
+                                  SeenGateway now) {
+  CAIRN_CHECK(known.visit < now.visit && now.visit.index() < walk.visits.size());
+  const TrueVisit& first = walk.visits[known.visit.index()];
+  const TrueVisit& second = walk.visits[now.visit.index()];
+  const int there = first.gateways[static_cast<Index>(known.gateway)];
+  const bool is_right = first.place == second.place && there >= 0 &&
+                        there == second.gateways[static_cast<Index>(now.gateway)];
+
+  constexpr int kRight = -1;
+  const auto count = static_cast<int>(first.gateways.size());
+  const int turned = ((known.gateway - now.gateway) % count + count) % count;
   std::uint64_t key = mixed(model.seed);
-  for (const int part : {earlier, later, turned}) {
+  for (const int part : {known.visit.value, now.visit.value, is_right ? kRight : turned}) {
     key = mixed(key ^ static_cast<std::uint64_t>(part));
   }
   return (is_right ? model.mean : -model.mean) + model.deviation * normal_of(key);

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "bench/lab/worlds/world.hpp"
+#include "topology/evidence.hpp"
 
 namespace cairn::lab {
 
@@ -37,5 +38,14 @@ Status validate(const MatchModel& model);
 /// @pre 0 <= earlier < later < number of visits
 [[nodiscard]] double match_log_likelihood_ratio(
     const Walk& walk, const MatchModel& model, int earlier, int later, int shift);
+
+/// That the two gateways are one, all others following clockwise; also where one of the visits saw
+/// more gateways than the other. Whichever gateways are asked about, the right alignment of two
+/// visits to one place has one ratio.
+/// @pre known.visit comes before now.visit; the gateways are of the stars that were seen
+[[nodiscard]] double match_log_likelihood_ratio(const Walk& walk,
+                                                const MatchModel& model,
+                                                SeenGateway known,
+                                                SeenGateway now);
 
 }  // namespace cairn::lab

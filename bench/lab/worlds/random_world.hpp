@@ -24,6 +24,14 @@ Status validate(const RandomWorldOptions& options);
 /// a gateway is linked to another one only within a face. Same seed, same world.
 [[nodiscard]] World random_world(const RandomWorldOptions& options, std::uint64_t seed);
 
+/// Streets on a square grid, each closed with the given probability; what is not connected to the
+/// largest part is left out. Same seed, same world.
+/// @pre rows, columns >= 2; the probability is in [0, 0.4]
+[[nodiscard]] World random_streets(int rows,
+                                   int columns,
+                                   double closed_probability,
+                                   std::uint64_t seed);
+
 struct RandomWalkOptions {
   int travels = 12;
   /// Of turning back although other ways lead on. In dead ends there is no choice.

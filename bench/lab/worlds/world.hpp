@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "star/star.hpp"
 #include "exact_search/exploration.hpp"
+#include "star/star.hpp"
 
 namespace cairn::lab {
 

@@ -53,7 +53,7 @@ TEST(AmendedStar, KeepsItsGatewaysWhereFragmentsHadBeenMisread) {
 TEST(AmendedStar, DoesNotExistWhereNothingWouldChangeOrTooMuch) {
   EXPECT_FALSE(amended(seen(tee(), 0), 0, tee(), 0));
   EXPECT_FALSE(amended(seen(crossing(), 0), 0, corridor(), 0));
-  EXPECT_FALSE(amended(seen(corridor(), 0), 0, tee(), 1));
+  EXPECT_TRUE(amended(seen(corridor(), 0), 0, tee(), 1)) << "its fragments were misread, too";
 }
 
 TEST(AmendedStar, CanBeThatOfAnotherReading) {

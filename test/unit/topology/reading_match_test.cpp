@@ -44,7 +44,9 @@ TEST(ReadingMatch, ATeeIsACrossingWithAMissedGateway) {
 TEST(ReadingMatch, ACorridorIsATeeWithAMissedStem) {
   const ReadingMatch match = match_reading(seen(corridor(), 0), tee(), 2, kTolerant);
   EXPECT_EQ(match, (ReadingMatch{-kMissed, Misreading::kMissedGateway, 0, 1, {2, 0}}));
-  EXPECT_FALSE(match_reading(seen(corridor(), 0), tee(), 1, kTolerant).is_possible());
+  const ReadingMatch from_stem = match_reading(seen(corridor(), 0), tee(), 1, kTolerant);
+  EXPECT_EQ(from_stem.log_likelihood, -kMissed - kMisread) << "the fragments were misread, too";
+  EXPECT_EQ(from_stem.alternatives, 0);
 }
 
 TEST(ReadingMatch, ACornerIsATeeWithAMissedArm) {
@@ -53,8 +55,10 @@ TEST(ReadingMatch, ACornerIsATeeWithAMissedArm) {
   const ReadingMatch only_left = match_reading(seen(corner(), 0), tee(), 1, kTolerant);
   EXPECT_EQ(only_left, (ReadingMatch{-kMissed, Misreading::kMissedGateway, 0, 1, {1, 2}}));
   // Along the bar: if the other arm is missed, only the stem is left, on the left.
-  EXPECT_TRUE(match_reading(seen(corner(), 0), tee(), 0, kTolerant).is_possible());
-  EXPECT_FALSE(match_reading(seen(corner(), 1), tee(), 0, kTolerant).is_possible());
+  const View left = seen(corner(), 0);
+  const View right = seen(corner(), 1);
+  EXPECT_EQ(match_reading(left, tee(), 0, kTolerant).log_likelihood, -kMissed);
+  EXPECT_EQ(match_reading(right, tee(), 0, kTolerant).log_likelihood, -kMissed - kMisread);
 }
 
 TEST(ReadingMatch, AFalseGatewayIsNoneOfThePlace) {
@@ -89,7 +93,22 @@ TEST(ReadingMatch, StarsThatDifferByMoreThanOneGatewayAreOfDifferentPlaces) {
   EXPECT_FALSE(match_reading(seen(corridor(), 0), crossing(), 0, kTolerant).is_possible());
   EXPECT_FALSE(match_reading(seen(crossing(), 0), dead_end(), 0, kTolerant).is_possible());
   const Star two_bends = star_of({0, 1, 2, 3}, {1, 0, 3, 2});
-  EXPECT_FALSE(match_reading(seen(tee(), 1), two_bends, 0, kTolerant).is_possible());
+  const ReadingMatch one_less = match_reading(seen(tee(), 1), two_bends, 0, kTolerant);
+  EXPECT_EQ(one_less.log_likelihood, -kMissed - kMisread);
+}
+
+TEST(ReadingMatch, WhichGatewayWasMissedMayBeChosen) {
+  const View view = seen(tee(), 0);
+  const Star place = corridor_with_two_stems();
+  const ReadingMatch first = match_reading(view, place, 0, kTolerant);
+  ASSERT_EQ(choice_count(view, first), 3);
+  EXPECT_THAT(first.gateway_of_view, ElementsAre(0, 2, 3));
+  const ReadingMatch second = match_reading(view, place, 0, kTolerant, 1);
+  EXPECT_EQ(second.log_likelihood, -kMissed);
+  const ReadingMatch third = match_reading(view, place, 0, kTolerant, 2);
+  EXPECT_EQ(third.log_likelihood, -kMissed - kMisread) << "then the fragments differ";
+  EXPECT_NE(second.gateway_of_view, first.gateway_of_view);
+  EXPECT_NE(third.gateway_of_view, second.gateway_of_view);
 }
 
 TEST(ReadingMatch, NothingButExactAgreementCountsAtInfiniteCosts) {

@@ -209,14 +209,15 @@ TEST(Successors, AMisreadStarIsBlamedInANoisyWorldOnly) {
 TEST(Successors, StrongEvidenceClosesALoopDespiteAMisreadStar) {
   const Star both_end = star_of({0, 1, -1, -1}, {3, 2, 1, 0});
   const TopologyOptions options = noisy();
-  for (const double ratio : {15.0, options.recognition_threshold - 0.1}) {
+  const double in_vain = -options.log_penalty_unrecognised - options.blame_margin;
+  for (const double ratio : {15.0, in_vain}) {
     Arrivals walked(corner(), 0, options, says(ratio));
     walked.add_place(0, corner(), 1).add_place(1, corner(), 1);
     const auto all = walked.of(1, both_end, 1);
     EXPECT_EQ(to(all, {PlaceId{0}, 1}).refuted_by, Refutation::kOtherView);
     EXPECT_THAT(of_kind(all, StepKind::kNewPlace), SizeIs(1));
     const auto misread = of_kind(all, StepKind::kMisread);
-    ASSERT_THAT(misread, SizeIs(ratio > options.recognition_threshold ? 1 : 0));
+    ASSERT_THAT(misread, SizeIs(ratio > in_vain ? 1 : 0));
     if (!misread.empty()) {
       EXPECT_EQ(walked.after(misread[0]).pending_count(), 0);
     }
