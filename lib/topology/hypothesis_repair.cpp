@@ -26,6 +26,8 @@ void HypothesisTree::repair(ExtendReport& report) {
     search_among(past, true, report);
     engine_->successors.set_noisy(false);
     for (const Leaf& leaf : past.take_all()) {
+      log_given_up_ =
+          std::max(log_given_up_, leaf.log_posterior() - log_bound_[leaf.visit.index()]);
       engine_->nodes.release(leaf.node);
     }
   }
@@ -33,14 +35,27 @@ void HypothesisTree::repair(ExtendReport& report) {
   if (candidates_.empty()) {
     go_on_unexplained(report);
   }
-  const auto best = std::min_element(
+  if (is_among_waiting) {
+    report.repair->blamed = blamed_by(best_candidate());
+  } else {
+    publish_blame(report);
+  }
+}
+
+const HypothesisTree::Candidate& HypothesisTree::best_candidate() const {
+  return *std::min_element(
       candidates_.begin(), candidates_.end(), [&](const Candidate& a, const Candidate& b) {
         return comes_before(rank_of(a.leaf), rank_of(b.leaf), engine_->options.preference);
       });
-  report.repair->blamed = blamed_by(*best);
-  if (!is_among_waiting && !report.guarantee_given_up) {
+}
+
+/// Nothing consistent explains the arrival: says what the best map blames.
+void HypothesisTree::publish_blame(ExtendReport& report) {
+  const Candidate& best = best_candidate();
+  report.repair->blamed = blamed_by(best);
+  if (!report.guarantee_given_up) {
     report.guarantee_given_up = GuaranteeGivenUp{
-        report.visit, GuaranteeLoss::kContradiction, best->leaf.log_posterior(),
+        report.visit, GuaranteeLoss::kContradiction, best.leaf.log_posterior(),
         "no hypothesis explained the arrival; blamed: " + to_text(report.repair->blamed)};
   }
 }

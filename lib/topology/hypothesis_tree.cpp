@@ -147,6 +147,11 @@ ExtendReport HypothesisTree::absorb_next(const Deadline& is_time_up) {
   expand_live(is_time_up, report);
   if (candidates_.empty()) {
     repair(report);
+  } else if (std::all_of(candidates_.begin(), candidates_.end(), [](const Candidate& next) {
+               return next.kind == StepKind::kContradiction;
+             })) {
+    report.repair.emplace();
+    publish_blame(report);
   }
   keep_best(report);
   log_bound_.push_back(log_bound_.back() + most_gained_at(report.visit));
@@ -259,15 +264,19 @@ PlaceOrder HypothesisTree::order_for(const Leaf& leaf, VisitId visit) const {
   if (!assertions_.is_any_in_force()) {
     return order;
   }
-  for (const OperatorAssertion& assertion : assertions_.ending_at(visit)) {
-    const std::optional<PlaceId> other = place_of_visit(leaf, std::min(assertion.a, assertion.b));
-    if (assertion.is_same) {
-      if (order.must_be && order.must_be != other) {
-        order.must_not_be.push_back(*order.must_be);  // It cannot be at both: at none.
-      }
-      order.must_be = other;
-    } else if (other) {
-      order.must_not_be.push_back(*other);
+  if (!assertions_.names(visit)) {
+    return order;
+  }
+  // Every earlier visit of a chain obeyed already, so all of them are at one place.
+  for (const VisitId other : assertions_.same_as(visit)) {
+    if (other < visit) {
+      order.must_be = place_of_visit(leaf, other);
+    }
+  }
+  for (const VisitId other : assertions_.different_from(visit)) {
+    const std::optional<PlaceId> place = other < visit ? place_of_visit(leaf, other) : std::nullopt;
+    if (place) {
+      order.must_not_be.push_back(*place);
     }
   }
   return order;

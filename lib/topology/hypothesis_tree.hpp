@@ -267,6 +267,8 @@ class HypothesisTree {
   void repair(ExtendReport& report);
   void search_among(DeferredLeaves& leaves, bool all_wanted, ExtendReport& report);
   [[nodiscard]] Leaf first_leaf() const;
+  [[nodiscard]] const Candidate& best_candidate() const;
+  void publish_blame(ExtendReport& report);
   void go_on_unexplained(ExtendReport& report);
   [[nodiscard]] Rank rank_of(const Leaf& leaf) const;
   [[nodiscard]] Rank waiting_rank_of(const Leaf& leaf) const;

@@ -77,6 +77,9 @@ double HypothesisTree::proven_gap() const {
   waiting_.for_each([&](const Leaf& leaf) {
     rival = std::max(rival, leaf.log_posterior() - log_bound_[leaf.visit.index()]);
   });
+  if (std::isinf(best) && best < 0.0) {
+    return best;  // Nothing is proven where even the best is impossible.
+  }
   return best - (rival + log_bound_.back());
 }
 

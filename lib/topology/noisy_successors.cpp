@@ -436,6 +436,27 @@ void Successors::depart_after_amending(PlaceId place,
   map_.undo(amendment.change);
 }
 
+/// The gateway of a place from which it looks most like the view, the departing one only if there
+/// is no other.
+GatewayIndex Successors::likeliest_gateway(PlaceId place,
+                                           GatewayIndex departure,
+                                           VisitId visit) const {
+  ReadingMatcher& view = experience_->matcher(visit);
+  const GatewayIndex first = map_.first_gateway(place);
+  const int gateways = map_.gateway_count(place);
+  GatewayIndex best = kNoGateway;
+  double most = 0.0;
+  for (int turn = 0; turn < gateways; ++turn) {
+    const GatewayIndex at = first + (view.view().arrival_gateway + turn) % gateways;
+    const double likelihood = view.match(map_.star(place), at - first).log_likelihood;
+    if (at != departure && (best == kNoGateway || likelihood > most)) {
+      best = at;
+      most = likelihood;
+    }
+  }
+  return best == kNoGateway ? first : best;
+}
+
 Alternative Successors::unexplained(const Situation& situation) {
   const ReadingMatcher& view = experience_->matcher(situation.visit);
   const VisitId before{situation.visit.value - 1};
@@ -447,11 +468,12 @@ Alternative Successors::unexplained(const Situation& situation) {
                                               experience_->action(situation.visit));
   }
   if (situation.order.must_be) {
-    const GatewayIndex first = map_.first_gateway(*situation.order.must_be);
-    const int gateways = map_.gateway_count(*situation.order.must_be);
-    broken.position = first + view.view().arrival_gateway % gateways;
+    broken.position =
+        likeliest_gateway(*situation.order.must_be, broken.departure, situation.visit);
     broken.target = map_.ref(broken.position);
-    const bool leads_nowhere = broken.departure != kNoGateway && map_.is_pending(broken.departure);
+    const bool leads_nowhere = broken.departure != kNoGateway &&
+                               map_.is_pending(broken.departure) &&
+                               broken.departure != broken.position;
     broken.change = {leads_nowhere ? MapChange::Kind::kOneWay : MapChange::Kind::kNothing,
                      {},
                      situation.visit,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace cairn {
 namespace {
@@ -104,13 +105,38 @@ bool OperatorAssertions::names(VisitId visit) const {
   });
 }
 
-std::vector<OperatorAssertion> OperatorAssertions::ending_at(VisitId visit) const {
-  std::vector<OperatorAssertion> ending;
-  std::copy_if(all_.begin(), all_.end(), std::back_inserter(ending),
-               [&](const OperatorAssertion& one) {
-                 return is_in_force(one) && std::max(one.a, one.b) == visit;
-               });
-  return ending;
+std::vector<VisitId> OperatorAssertions::same_as(VisitId visit) const {
+  std::set<VisitId> same = {visit};
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (const OperatorAssertion& one : all_) {
+      if (is_in_force(one) && one.is_same && (same.count(one.a) != same.count(one.b))) {
+        same.insert(one.a);
+        same.insert(one.b);
+        grows = true;
+      }
+    }
+  }
+  same.erase(visit);
+  return {same.begin(), same.end()};
+}
+
+std::vector<VisitId> OperatorAssertions::different_from(VisitId visit) const {
+  std::set<VisitId> different;
+  std::vector<VisitId> here = same_as(visit);
+  here.push_back(visit);
+  for (const VisitId one : here) {
+    for (const OperatorAssertion& assertion : all_) {
+      if (is_in_force(assertion) && !assertion.is_same &&
+          (assertion.a == one || assertion.b == one)) {
+        const VisitId other = assertion.a == one ? assertion.b : assertion.a;
+        const std::vector<VisitId> there = same_as(other);
+        different.insert(other);
+        different.insert(there.begin(), there.end());
+      }
+    }
+  }
+  return {different.begin(), different.end()};
 }
 
 bool OperatorAssertions::is_any_in_force() const {

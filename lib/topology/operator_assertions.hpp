@@ -55,8 +55,11 @@ class OperatorAssertions {
   [[nodiscard]] const std::vector<OperatorAssertion>& all() const { return all_; }
   /// In force.
   [[nodiscard]] bool names(VisitId visit) const;
-  /// In force, with `visit` as the later of its two.
-  [[nodiscard]] std::vector<OperatorAssertion> ending_at(VisitId visit) const;
+  /// Visits that are to the same place by the assertions in force, chains included; without
+  /// `visit`.
+  [[nodiscard]] std::vector<VisitId> same_as(VisitId visit) const;
+  /// Visits that are to other places by the assertions in force, chains included.
+  [[nodiscard]] std::vector<VisitId> different_from(VisitId visit) const;
   [[nodiscard]] bool is_any_in_force() const;
 
  private:

@@ -230,6 +230,10 @@ void Successors::woken_up(const Arrival& arrival) {
                         kNoGateway, number};
     elsewhere.position = map_.end_gateway() + number;
     elsewhere.log_likelihood = options_->log_prior_new_place + log_likelihood_of(view, reading);
+    if (options_->max_places && map_.place_count() >= *options_->max_places) {
+      refute(Refutation::kTooManyPlaces, elsewhere, arrival);
+      continue;
+    }
     add(elsewhere, arrival);
   }
 }

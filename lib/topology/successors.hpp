@@ -156,6 +156,9 @@ class Successors {
                                GatewayIndex known,
                                int beside,
                                const Arrival& arrival);
+  [[nodiscard]] GatewayIndex likeliest_gateway(PlaceId place,
+                                               GatewayIndex departure,
+                                               VisitId visit) const;
   void from_unseen_gateway(GatewayIndex position, const Arrival& arrival);
   void depart_after_amending(PlaceId place,
                              const Amendment& amendment,

@@ -172,5 +172,22 @@ TEST(Assertions, AreNamedWhereTheyDecide) {
                              HasSubstr("refuted: an operator says otherwise"))));
 }
 
+TEST(Assertions, ChainsHoldBetweenAllTheirVisits) {
+  for (const auto& [first, second] : {std::pair(0, 2), std::pair(2, 3)}) {
+    Traveller robot(crossing(), 0);
+    for (int visit = 1; visit < 9; ++visit) {
+      robot.travel(1, crossing(), 0);
+    }
+    HypothesisTree& tree = robot.tree();
+    ASSERT_TRUE(tree.assert_places(VisitId{first}, VisitId{6}, true, "me").ok());
+    ASSERT_TRUE(tree.assert_places(VisitId{second}, VisitId{6}, true, "me").ok());
+    tree.for_each_map(
+        [&, first = first, second = second](const Hypothesis&, const TopologicalMap& map) {
+          EXPECT_EQ(map.at_visit(VisitId{first}).place, map.at_visit(VisitId{6}).place);
+          EXPECT_EQ(map.at_visit(VisitId{second}).place, map.at_visit(VisitId{6}).place);
+        });
+  }
+}
+
 }  // namespace
 }  // namespace cairn::test
