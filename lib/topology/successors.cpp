@@ -238,6 +238,13 @@ void Successors::woken_up(const Arrival& arrival) {
   }
 }
 
+/// What evidence says of two gateways being the same.
+double Successors::asked(SeenGateway known, SeenGateway now) const {
+  const double ratio = evidence_->same_place(known, now);
+  CAIRN_CHECK(ratio < std::numeric_limits<double>::infinity());  // NaN compares false.
+  return evidence_->same_place_bound ? ratio : std::min(ratio, options_->max_log_evidence);
+}
+
 double Successors::recognition(GatewayIndex target,
                                const ReadingMatch& match,
                                VisitId visit) const {
@@ -247,11 +254,7 @@ double Successors::recognition(GatewayIndex target,
   const PlaceId place = map_.place_of(target);
   const VisitId known = map_.first_visit(place);
   const View& view = experience_->view(visit);
-  const auto ask = [&](int seen_as, int now) {
-    const double ratio = evidence_->same_place({known, seen_as}, {visit, now});
-    CAIRN_CHECK(ratio < std::numeric_limits<double>::infinity());  // NaN compares false.
-    return evidence_->same_place_bound ? ratio : std::min(ratio, options_->max_log_evidence);
-  };
+  const auto ask = [&](int seen_as, int now) { return asked({known, seen_as}, {visit, now}); };
   if (const int seen_as = seen_number(target); seen_as >= 0) {
     return ask(seen_as, view.arrival_gateway);
   }

@@ -121,7 +121,7 @@ class Successors {
   void consider_new_places(GatewayIndex departure, const Arrival& arrival);
   [[nodiscard]] Refutation refutation_of_link(GatewayIndex departure, GatewayIndex target);
 
-  // Steps that blame an observation: noisy_successors.cpp.
+  // Steps that blame an observation: noisy_successors.cpp, star_corrections.cpp.
   void consider_misreading(GatewayIndex departure,
                            GatewayIndex target,
                            const ReadingMatch& match,
@@ -165,6 +165,7 @@ class Successors {
                              double charged,
                              const Arrival& arrival);
 
+  [[nodiscard]] double asked(SeenGateway known, SeenGateway now) const;
   [[nodiscard]] double recognition(GatewayIndex target,
                                    const ReadingMatch& match,
                                    VisitId visit) const;

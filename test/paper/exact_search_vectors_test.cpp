@@ -2,7 +2,6 @@
 // without planarity, the office experiment of Kuipers et al., ICRA 2004, Sec. IV, and explorations
 // too large for trees that keep their leaves.
 
-#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
@@ -12,28 +11,13 @@
 
 #include "exact_search/exact_search.hpp"
 #include "support/explorations.hpp"
-#include "support/recorded_data.hpp"
-#include "support/stars.hpp"
+#include "support/topology_vectors.hpp"
 
 namespace cairn::test {
 namespace {
 
 using ::testing::ElementsAreArray;
 using Json = nlohmann::json;
-
-Json read(const std::string& file) {
-  std::ifstream in(recorded_data(file));
-  return Json::parse(in);
-}
-
-std::map<std::string, Star> stars_of(const Json& file) {
-  std::map<std::string, Star> stars;
-  for (const auto& [name, star] : file["stars"].items()) {
-    stars[name] = star_of(star["slots"].get<std::vector<int>>(),
-                          star["partner_slot"].get<std::vector<std::size_t>>());
-  }
-  return stars;
-}
 
 Exploration exploration_of(const Json& vector, const std::map<std::string, Star>& stars) {
   Exploration exploration{stars.at(vector["start"]["star"]), vector["start"]["gate"], {}};
@@ -134,18 +118,18 @@ void expect_vectors(const Json& file) {
 
 TEST(ExactSearchVectors, EveryCountOfEveryExplorationAgrees) {
   CAIRN_NEED_DATA("topology/vectors.json");
-  expect_vectors(read("topology/vectors.json"));
+  expect_vectors(recorded_json("topology/vectors.json"));
 }
 
 TEST(ExactSearchVectors, EveryCountOfTheOfficeExperimentAgrees) {
   CAIRN_NEED_DATA("topology/office.json");
-  expect_vectors(read("topology/office.json"));
+  expect_vectors(recorded_json("topology/office.json"));
 }
 
 // Pruning early by a rule whose violations never heal leaves the maps that filtering late leaves.
 TEST(ExactSearchVectors, RegionConsistencyAsAnAxiomLeavesTheMapsThatFilteringLeaves) {
   CAIRN_NEED_DATA("topology/office.json");
-  const Json file = read("topology/office.json");
+  const Json file = recorded_json("topology/office.json");
   for (const Json& vector : file["vectors"]) {
     for (const bool planar : {false, true}) {
       SCOPED_TRACE(vector["name"].get<std::string>() + (planar ? ", planar" : ", not planar"));
@@ -165,7 +149,7 @@ TEST(ExactSearchVectors, RegionConsistencyAsAnAxiomLeavesTheMapsThatFilteringLea
 TEST(ExactSearchVectors, LargeExplorationsAgree) {
   CAIRN_NEED_DATA("topology/vectors.json");
   constexpr std::int64_t kMostNodes = 4'000'000;
-  const Json file = read("topology/vectors.json");
+  const Json file = recorded_json("topology/vectors.json");
   int compared = 0;
   for (const Json& row : file["large_counts"]) {
     if (!row.contains("tree_nodes") || row["tree_nodes"] > kMostNodes) {

@@ -1,8 +1,9 @@
 // The published vectors of explorations: every count of every exploration, with and without
 // planarity, and the office experiment of Kuipers et al., ICRA 2004, Sec. IV.
 
+#include "support/topology_vectors.hpp"
+
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
@@ -10,8 +11,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "support/recorded_data.hpp"
-#include "support/stars.hpp"
 #include "topology/hypothesis_tree.hpp"
 #include "topology/regions.hpp"
 
@@ -19,20 +18,6 @@ namespace cairn::test {
 namespace {
 
 using Json = nlohmann::json;
-
-Json read(const std::string& file) {
-  std::ifstream in(recorded_data(file));
-  return Json::parse(in);
-}
-
-std::map<std::string, Star> stars_of(const Json& file) {
-  std::map<std::string, Star> stars;
-  for (const auto& [name, star] : file["stars"].items()) {
-    stars[name] = star_of(star["slots"].get<std::vector<int>>(),
-                          star["partner_slot"].get<std::vector<std::size_t>>());
-  }
-  return stars;
-}
 
 /// The tree after an exploration, and what happened on the way.
 struct Explored {
@@ -119,12 +104,12 @@ void expect_vectors(const Json& file) {
 
 TEST(TopologyVectors, EveryCountOfEveryExplorationAgrees) {
   CAIRN_NEED_DATA("topology/vectors.json");
-  expect_vectors(read("topology/vectors.json"));
+  expect_vectors(recorded_json("topology/vectors.json"));
 }
 
 TEST(OfficeExperiment, CountsOfAllConsistentMapsAgree) {
   CAIRN_NEED_DATA("topology/office.json");
-  expect_vectors(read("topology/office.json"));
+  expect_vectors(recorded_json("topology/office.json"));
 }
 
 // "The topological mapper finds 83 possible configurations [...]; 4 minimal models. If we assume
@@ -132,7 +117,7 @@ TEST(OfficeExperiment, CountsOfAllConsistentMapsAgree) {
 // The minimal ones are those without triangles among the maps of fewest paths and places.
 TEST(OfficeExperiment, RegionConsistencyAsAnAxiomGives83MapsAnd46InThePlane) {
   CAIRN_NEED_DATA("topology/office.json");
-  const Json file = read("topology/office.json");
+  const Json file = recorded_json("topology/office.json");
   const std::map<std::string, Star> stars = stars_of(file);
   for (const Json& vector : file["vectors"]) {
     for (const bool planar : {false, true}) {
