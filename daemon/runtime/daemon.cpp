@@ -4,7 +4,6 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <deque>
 #include <fstream>
 #include <memory>
 #include <random>
@@ -14,6 +13,8 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include "runtime/latency.hpp"
+#include "runtime/map_log.hpp"
 #include "runtime/mapping_thread.hpp"
 #include "runtime/planner.hpp"
 #include "runtime/publisher.hpp"
@@ -45,32 +46,6 @@ float resident_mb() {
   std::ifstream("/proc/self/statm") >> pages >> resident;
   return static_cast<float>(resident) * static_cast<float>(sysconf(_SC_PAGESIZE)) / 1048576.0F;
 }
-
-/// How long it takes to take in a scan, over the last few hundred.
-class Latency {
- public:
-  void add(double ms) {
-    recent_.push_back(static_cast<float>(ms));
-    if (recent_.size() > 400) {
-      recent_.pop_front();
-    }
-  }
-  [[nodiscard]] float median_ms() const {
-    std::vector<float> sorted(recent_.begin(), recent_.end());
-    if (sorted.empty()) {
-      return 0.0F;
-    }
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    return *middle;
-  }
-  [[nodiscard]] float max_ms() const {
-    return recent_.empty() ? 0.0F : *std::max_element(recent_.begin(), recent_.end());
-  }
-
- private:
-  std::deque<float> recent_;
-};
 
 /// The event loop: bus, signals, the two workers, the status. Everything here runs on one thread.
 class Daemon {
@@ -185,38 +160,6 @@ class Daemon {
       journal_trouble_ = trouble;
       publish_status();
     }
-  }
-
-  static void log_extensions(const MappingReport& report) {
-    for (const ExtendReport& extension : report.extensions) {
-      spdlog::info(
-          "visit {}: {} hypotheses live, {} waiting ({} closures, {} new places, {} known links)",
-          extension.visit.value, extension.leaves, extension.waiting,
-          extension.count(StepKind::kClosure), extension.count(StepKind::kNewPlace),
-          extension.count(StepKind::kKnownLink));
-      if (extension.repair) {
-        spdlog::warn("visit {}: no hypothesis explained it; blamed: {}", extension.visit.value,
-                     to_text(extension.repair->blamed));
-      }
-      if (extension.guarantee_given_up) {
-        spdlog::warn("visit {}: guarantee given up: {}", extension.visit.value,
-                     extension.guarantee_given_up->reason);
-      }
-    }
-  }
-
-  static void log_assertion(const MappingReport& report) {
-    const auto* const assertion =
-        report.answer ? std::get_if<cairn_lcm::assertion_report_t>(&*report.answer) : nullptr;
-    if (assertion == nullptr || assertion->result.code != cairn_lcm::result_t::OK ||
-        report.state == nullptr) {
-      return;  // Refused, or carried out before.
-    }
-    const auto index = static_cast<std::size_t>(assertion->assertion) - 1;
-    const OperatorAssertion& said = report.state->assertions.at(index).said;
-    const std::string by =
-        said.retracted_after_visits ? "taken back by " + said.retracted_by : "by " + said.who;
-    spdlog::info("assertion {} {}: {}", said.number, by, assertion->sentence);
   }
 
   /// One drawing is under way at a time; the newest state is drawn next. What was drawn is stored
