@@ -130,7 +130,7 @@ Json json_of(const TopologyRequest& request, const GridExploration& grid, const 
   } else {
     json.update(to_json(run.counts));
   }
-  json["is_complete"] = run.is_complete;
+  json["is_complete"] = run.given_up.empty();
   json["cpu_ms"] = milliseconds(run.cpu_s);
   json["nodes_per_s"] = nodes_per_s(run);
   json["bytes_per_stored_node"] = run.bytes_per_node == 0 ? Json() : Json(run.bytes_per_node);
@@ -167,9 +167,8 @@ void print(const TopologyRequest& request,
   } else {
     print_counts(run.counts, out);
   }
-  if (!run.is_complete) {
-    out << "  given up after " << grouped(run.counts.tree_nodes)
-        << " nodes (--max-nodes): there are more maps\n";
+  if (!run.given_up.empty()) {
+    out << "  " << run.given_up << '\n';
   }
   out << "  " << cost_text(run) << '\n';
 }
@@ -235,8 +234,8 @@ void write_tree(const TopologyRequest& request, const GridExploration& grid) {
                   "--region-axiom and --max-places");
   }
   ExactSearchOptions bounded = search;
-  bounded.max_nodes = kMostDrawnNodes + 1;
-  if (enumerate(grid.walk.exploration, bounded).counts.tree_nodes > kMostDrawnNodes) {
+  bounded.max_nodes = kMostDrawnNodes;
+  if (!enumerate(grid.walk.exploration, bounded).is_complete) {
     throw Failure(ExitCode::kBadData, "--tree-dot: the tree has more than " +
                                           grouped(kMostDrawnNodes) +
                                           " nodes, too many for a picture; shorten the walk");

@@ -5,6 +5,7 @@
 
 #include "base/check.hpp"
 #include "bench/lab/resources.hpp"
+#include "bench/lab/text.hpp"
 #include "topology/hypothesis_tree.hpp"
 #include "topology/paths.hpp"
 #include "topology/regions.hpp"
@@ -71,7 +72,7 @@ void tidy(std::size_t max_codes, std::optional<Simplest>* simplest) {
 }
 
 /// The tree as the papers have it: where nothing explains an arrival it has no leaves any more,
-/// and nobody repairs it.
+/// and nobody repairs it. Counts are those of the last travel that kept within the bound on nodes.
 class StrictTree {
  public:
   StrictTree(const Exploration& exploration, const ExactSearchOptions& options)
@@ -81,9 +82,9 @@ class StrictTree {
     maps_ = tree_.maps_built();
   }
 
-  /// The next step. False: that was the last one, or the bound on nodes was reached.
+  /// The next step. False: that was the last one, or it was given up.
   bool extend() {
-    if (leaves_.size() == exploration_->steps.size() || !is_complete_) {
+    if (leaves_.size() == exploration_->steps.size() || !given_up_.empty()) {
       return false;
     }
     if (is_refuted_) {
@@ -91,20 +92,20 @@ class StrictTree {
       return true;
     }
     const ExplorationStep& next = exploration_->steps[leaves_.size()];
-    const auto is_full = [this] { return max_nodes_ > 0 && tree_.node_count() >= max_nodes_; };
     const Result<ExtendReport> report =
         tree_.extend({next.turn}, {next.star, next.arrival_gateway, VisitId{tree_.visit_count()}});
     CAIRN_CHECK(report.ok());
-    mismatches_ += report->links_contradicted;
     is_refuted_ = report->repair.has_value();
+    if (!is_refuted_ && !has_kept_all(*report)) {
+      return false;
+    }
+    mismatches_ += report->links_contradicted;
     leaves_.push_back(is_refuted_ ? 0 : report->leaves);
     if (!is_refuted_) {
       nodes_ = tree_.node_count();
       maps_ = tree_.maps_built();
     }
-    is_complete_ = is_refuted_ || (report->waiting == 0 && !report->guarantee_given_up &&
-                                   (!is_full() || leaves_.size() == exploration_->steps.size()));
-    return is_complete_;
+    return true;
   }
 
   [[nodiscard]] const HypothesisTree& tree() const { return tree_; }
@@ -112,10 +113,23 @@ class StrictTree {
   [[nodiscard]] std::int64_t nodes() const { return nodes_; }
   [[nodiscard]] std::int64_t maps() const { return maps_; }
   [[nodiscard]] std::int64_t mismatches() const { return mismatches_; }
-  [[nodiscard]] bool is_complete() const { return is_complete_; }
+  [[nodiscard]] const std::string& given_up() const { return given_up_; }
   [[nodiscard]] bool is_refuted() const { return is_refuted_; }
 
  private:
+  /// Whether all leaves of the travel are there, with no more nodes than allowed.
+  bool has_kept_all(const ExtendReport& report) {
+    const std::string in_travel = "given up in travel " + std::to_string(leaves_.size() + 1) +
+                                  " of " + std::to_string(exploration_->steps.size());
+    if (max_nodes_ > 0 && tree_.node_count() > max_nodes_) {
+      given_up_ = in_travel + ", which makes more than " + grouped(max_nodes_) +
+                  " nodes (--max-nodes); counted is the tree before it";
+    } else if (report.waiting > 0 || report.guarantee_given_up) {
+      given_up_ = in_travel + ", of which not all maps can be kept; counted is the tree before it";
+    }
+    return given_up_.empty();
+  }
+
   const Exploration* exploration_;
   std::int64_t max_nodes_;
   HypothesisTree tree_;
@@ -123,7 +137,7 @@ class StrictTree {
   std::int64_t nodes_ = 0;
   std::int64_t maps_ = 0;
   std::int64_t mismatches_ = 0;
-  bool is_complete_ = true;
+  std::string given_up_;
   bool is_refuted_ = false;
 };
 
@@ -149,7 +163,7 @@ SearchRun run_breadth(const Exploration& exploration, const ExactSearchOptions& 
   while (grown.extend()) {
   }
   SearchRun run;
-  run.is_complete = grown.is_complete();
+  run.given_up = grown.given_up();
   MapCounts& counts = run.counts;
   counts.tree_nodes = grown.nodes();
   counts.maps_built = grown.maps();
@@ -160,7 +174,7 @@ SearchRun run_breadth(const Exploration& exploration, const ExactSearchOptions& 
   run.cpu_s = cpu_time_s() - start_s;
   // Looking at every map afterwards is not part of the search.
   const auto max_codes = static_cast<std::size_t>(options.max_codes);
-  if (run.is_complete && !grown.is_refuted()) {
+  if (run.given_up.empty() && !grown.is_refuted()) {
     grown.tree().for_each_map(
         [&](const Hypothesis&, const TopologicalMap& map) { count_final(map, counts); });
   }

@@ -12,11 +12,17 @@
 namespace cairn::lab {
 namespace {
 
+/// @pre the search reached max_nodes
+std::string given_up(const ExactSearchOptions& options) {
+  return "given up after " + grouped(options.max_nodes) +
+         " nodes (--max-nodes): the search needs more";
+}
+
 SearchRun run_depth(const Exploration& exploration, const ExactSearchOptions& options) {
   Enumeration all = enumerate(exploration, options);
   SearchRun run;
   run.counts = std::move(all.counts);
-  run.is_complete = all.is_complete;
+  run.given_up = all.is_complete ? "" : given_up(options);
   return run;
 }
 
@@ -28,7 +34,7 @@ SearchRun run_best(const Exploration& exploration,
   run.is_best_first = true;
   run.counts.tree_nodes = best.tree_nodes;
   run.counts.maps_built = best.maps_built;
-  run.is_complete = options.max_nodes == 0 || best.tree_nodes < options.max_nodes;
+  run.given_up = best.is_complete ? "" : given_up(options);
   run.is_proven = best.is_proven;
   run.max_open = best.max_open;
   run.bytes_per_node = best.bytes_per_node;

@@ -15,11 +15,14 @@ enum class SearchKind {
   kBest,     ///< The most promising first, until a map is closed.
 };
 
-/// A search and what it cost.
+/// A search and what it cost. With a bound on nodes it counts at most that many, and has come to
+/// its end if it needs no more. Breadth-first search is bounded by whole travels: where one makes
+/// too many nodes, what is counted is the tree before it.
 struct SearchRun {
-  MapCounts counts;         ///< Best-first: only nodes, maps, and the map found.
-  bool is_complete = true;  ///< False: the bound on nodes was reached.
-  bool is_proven = false;   ///< Best-first: nothing that waited can be better.
+  MapCounts counts;  ///< Best-first: only nodes, maps, and the map found.
+  /// Why the search did not come to its end, "given up ..."; empty if it did.
+  std::string given_up;
+  bool is_proven = false;  ///< Best-first: nothing that waited can be better.
   bool is_best_first = false;
   std::string best_code;           ///< Best-first: the closed map; empty if there is none.
   std::int64_t max_open = 0;       ///< Best-first: longest list of waiting nodes.

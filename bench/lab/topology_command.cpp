@@ -119,7 +119,9 @@ void add_search(CLI::App& command, TopologyRequest* request, GridOptions* grid) 
                         "Corridors are straight: a gateway is north-south or east-west"),
        command.add_flag("--compass", search.compass, "Corridors keep their heading"),
        command
-           .add_option("--max-nodes", search.max_nodes, "Give up after so many nodes [no limit]")
+           .add_option("--max-nodes", search.max_nodes,
+                       "Give up a search that needs more nodes (breadth: in the travel that makes "
+                       "them, which is then not counted) [no limit]")
            ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 60))});
 }
 

@@ -31,6 +31,10 @@ class Enumerator {
   }
 
   bool enters(const Successor& leaf, int step) {
+    if (max_nodes_ > 0 && tally_.tree_nodes() >= max_nodes_) {
+      is_given_up_ = true;
+      return false;
+    }
     tally_.count(leaf, step);
     if (step + 1 < walk_.step_count()) {
       return true;
@@ -44,7 +48,7 @@ class Enumerator {
     return false;
   }
   [[nodiscard]] bool still_enters(const Successor& /*leaf*/) const { return true; }
-  [[nodiscard]] bool is_done() const { return max_nodes_ > 0 && tally_.tree_nodes() >= max_nodes_; }
+  [[nodiscard]] bool is_done() const { return is_given_up_; }
 
  private:
   void add_codes(MapTally::WantedCodes wanted, const std::vector<MapChange>& changes) {
@@ -56,6 +60,7 @@ class Enumerator {
   ExactSearchState state_;
   DepthFirst<Enumerator> search_;
   MapTally tally_;
+  bool is_given_up_ = false;
 };
 
 }  // namespace

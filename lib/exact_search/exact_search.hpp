@@ -32,16 +32,18 @@ struct ExactSearchOptions {
   /// planar and perpendicular; loses nothing that is closed.
   std::optional<int> max_corners;
   bool straight_corridors = false;  ///< A gateway is north-south or east-west: 4-slot stars only.
-  bool compass = false;        ///< Gateways keep their heading along corridors: 4-slot stars only.
-  std::int64_t max_nodes = 0;  ///< 0: no limit. A search that reaches it says so.
-  int max_codes = 64;          ///< Canonical codes kept of the simplest maps.
+  bool compass = false;  ///< Gateways keep their heading along corridors: 4-slot stars only.
+  /// Nodes that a search may count, the root included; 0: no limit. A search is complete if it
+  /// needs no more; one that does counts exactly as many and says so.
+  std::int64_t max_nodes = 0;
+  int max_codes = 64;  ///< Canonical codes kept of the simplest maps.
 };
 
 /// Every map consistent with the exploration, counted by depth-first search with one working state:
 /// no leaf is stored.
 struct Enumeration {
   MapCounts counts;
-  bool is_complete = true;  ///< False: max_nodes was reached.
+  bool is_complete = true;  ///< False: there are more nodes than max_nodes.
 };
 [[nodiscard]] Enumeration enumerate(const Exploration& exploration,
                                     const ExactSearchOptions& options);
@@ -69,6 +71,7 @@ struct BestMap {
   std::int64_t max_open = 0;       ///< Longest list of nodes waiting.
   std::size_t bytes_per_node = 0;  ///< Stored.
   bool is_proven = false;          ///< Nothing that waits can be better.
+  bool is_complete = true;         ///< False: the search needs more nodes than max_nodes.
 };
 [[nodiscard]] BestMap find_best(const Exploration& exploration,
                                 const ExactSearchOptions& options,

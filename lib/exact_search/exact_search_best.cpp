@@ -55,7 +55,7 @@ class BestFirst {
     if (state_.allows_start()) {
       open_.add({cost_of(state_.start(), order_), 0, 0});
     }
-    while (!open_.is_empty() && best.tree_nodes < max_nodes_) {
+    while (!open_.is_empty() && best.is_complete) {
       const OpenList::Entry next = open_.take();
       move_to(next);
       if (next.depth == walk_.step_count()) {
@@ -65,7 +65,7 @@ class BestFirst {
       }
       expand(next.depth, &best);
     }
-    best.is_proven = open_.is_empty();
+    best.is_proven = best.is_complete;
     return best;
   }
 
@@ -130,6 +130,10 @@ class BestFirst {
     const Passed& node = passed_.back();
     state_.expand(node.summary, depth, &successors_);
     for (const Successor& successor : successors_) {
+      if (best->tree_nodes >= max_nodes_) {
+        best->is_complete = false;
+        return;
+      }
       const MapChange::Kind kind = successor.change.kind;
       ++best->tree_nodes;
       best->maps_built += kind == MapChange::Kind::kNothing ? 0 : 1;
@@ -187,11 +191,15 @@ class IterativeDeepening {
       may_exist = next_limit_ != kNoLimit;
       limit_ = next_limit_;
     }
-    best_.is_proven = !is_done();
+    best_.is_proven = best_.is_complete;
     return best_;
   }
 
   bool enters(const Successor& successor, int step) {
+    if (max_nodes_ > 0 && best_.tree_nodes >= max_nodes_) {
+      best_.is_complete = false;
+      return false;
+    }
     ++best_.tree_nodes;
     best_.maps_built += successor.change.kind == MapChange::Kind::kNothing ? 0 : 1;
     const SearchCost cost = cost_of(successor.summary, order_);
@@ -216,7 +224,7 @@ class IterativeDeepening {
   [[nodiscard]] bool still_enters(const Successor& successor) const {
     return !best_.map || cost_of(successor.summary, order_) < best_cost_;
   }
-  [[nodiscard]] bool is_done() const { return max_nodes_ > 0 && best_.tree_nodes >= max_nodes_; }
+  [[nodiscard]] bool is_done() const { return !best_.is_complete; }
 
  private:
   static constexpr std::int32_t kNoLimit = std::numeric_limits<std::int32_t>::max();

@@ -210,7 +210,15 @@ TEST(Enumeration, ASearchThatIsCutOffSaysSo) {
   options.max_nodes = 1000;
   const Enumeration found = enumerate(test::snake(4, 4), options);
   EXPECT_FALSE(found.is_complete);
-  EXPECT_LT(found.counts.tree_nodes, 1100);
+  EXPECT_EQ(found.counts.tree_nodes, 1000);
+}
+
+TEST(Enumeration, ATreeOfJustAsManyNodesAsAllowedIsComplete) {
+  ExactSearchOptions options = planar();
+  options.max_nodes = 240;
+  EXPECT_TRUE(enumerate(test::snake(3, 3), options).is_complete);
+  options.max_nodes = 239;
+  EXPECT_FALSE(enumerate(test::snake(3, 3), options).is_complete);
 }
 
 TEST(Enumeration, ALongExperienceDoesNotExhaustTheStack) {
@@ -290,6 +298,27 @@ TEST(BestMap, ASearchThatIsCutOffProvesNothing) {
   const BestMap best = find_best(test::snake(6, 6), options, SearchOrder::kPlaces);
   EXPECT_FALSE(best.map.has_value());
   EXPECT_FALSE(best.is_proven);
+}
+
+TEST(BestMap, ASearchThatNeedsJustAsManyNodesAsAllowedFinds) {
+  for (const bool deepens : {false, true}) {
+    SCOPED_TRACE(deepens);
+    const Exploration grid = deepens ? test::snake(12, 12) : test::snake(5, 5);
+    ExactSearchOptions options = planar(true);
+    options.look_ahead = deepens;
+    options.compass = deepens;
+    const SearchOrder order = SearchOrder::kCorners;
+    options.max_nodes = find_best(grid, options, order).tree_nodes;
+    const BestMap found = find_best(grid, options, order);
+    EXPECT_TRUE(found.is_complete);
+    EXPECT_TRUE(found.is_proven);
+    EXPECT_TRUE(found.map.has_value());
+    --options.max_nodes;
+    const BestMap cut_off = find_best(grid, options, order);
+    EXPECT_FALSE(cut_off.is_complete);
+    EXPECT_FALSE(cut_off.is_proven);
+    EXPECT_EQ(cut_off.tree_nodes, options.max_nodes);
+  }
 }
 
 TEST(BestMap, ThatThereIsNoneIsProven) {

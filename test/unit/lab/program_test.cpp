@@ -100,6 +100,31 @@ TEST(LabTopology, SaysWhenItGivesUp) {
   EXPECT_THAT(ran.output, HasSubstr("given up after 1,000 nodes"));
 }
 
+TEST(LabTopology, ABoundOnNodesIsReachedOnlyIfMoreAreNeeded) {
+  for (const std::string search : {"depth", "breadth"}) {
+    SCOPED_TRACE(search);
+    const auto bounded = [&](const std::string& nodes) {
+      return Json::parse(run({"topology", "--grid", "3x3", "--planar", "--search", search,
+                              "--max-nodes", nodes, "--json"})
+                             .output);
+    };
+    EXPECT_EQ(bounded("240")["is_complete"], true);
+    EXPECT_EQ(bounded("240")["final_maps"], 62);
+    EXPECT_EQ(bounded("239")["is_complete"], false);
+    EXPECT_LE(bounded("239")["tree_nodes"], 239);
+  }
+}
+
+TEST(LabTopology, SaysInWhichTravelBreadthFirstSearchGivesUp) {
+  const Ran ran = run({"topology", "--grid", "3x3", "--planar", "--search", "breadth",
+                       "--max-nodes", "239", "--json"});
+  EXPECT_EQ(Json::parse(ran.output)["leaves_per_step"].size(), 15U);
+  EXPECT_THAT(
+      run({"topology", "--grid", "3x3", "--planar", "--search", "breadth", "--max-nodes", "239"})
+          .output,
+      HasSubstr("given up in travel 16 of 16, which makes more than 239 nodes"));
+}
+
 TEST(LabTopology, WritesItsDrawings) {
   const TemporaryFolder folder;
   std::vector<std::string> arguments = {"topology", "--grid", "3x3", "--planar"};
