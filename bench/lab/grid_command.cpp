@@ -131,10 +131,7 @@ Json json_of(const TopologyRequest& request, const GridExploration& grid, const 
     json.update(to_json(run.counts));
   }
   json["is_complete"] = run.given_up.empty();
-  json["cpu_ms"] = milliseconds(run.cpu_s);
-  json["nodes_per_s"] = nodes_per_s(run);
-  json["bytes_per_stored_node"] = run.bytes_per_node == 0 ? Json() : Json(run.bytes_per_node);
-  json["peak_resident_bytes"] = peak_resident_bytes();
+  json.update(cost_json(run));
   return json;
 }
 

@@ -170,9 +170,13 @@ SearchRun run_breadth(const Exploration& exploration, const ExactSearchOptions& 
   counts.view_mismatches = grown.mismatches();
   counts.leaves_per_step = grown.leaves();
   const HypothesisTree::Memory memory = grown.tree().memory();
-  run.bytes_per_node = memory.bytes_of_nodes / memory.nodes;
+  run.stored = {static_cast<std::int64_t>(memory.nodes),
+                static_cast<std::int64_t>(memory.bytes_of_nodes),
+                grown.tree().live_count() + grown.tree().waiting_count(),
+                static_cast<std::int64_t>(memory.bytes_of_leaves)};
   run.cpu_s = cpu_time_s() - start_s;
   // Looking at every map afterwards is not part of the search.
+  const double counting_start_s = cpu_time_s();
   const auto max_codes = static_cast<std::size_t>(options.max_codes);
   if (run.given_up.empty() && !grown.is_refuted()) {
     grown.tree().for_each_map(
@@ -181,6 +185,7 @@ SearchRun run_breadth(const Exploration& exploration, const ExactSearchOptions& 
   counts.region_leaves_per_step = region_leaves(exploration, options, counts.leaves_per_step);
   tidy(max_codes, &counts.optimal);
   tidy(max_codes, &counts.minimal_region);
+  run.counting_cpu_s = cpu_time_s() - counting_start_s;
   return run;
 }
 

@@ -12,6 +12,10 @@
 namespace cairn::lab {
 namespace {
 
+double ratio(std::int64_t part, std::int64_t whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
 /// @pre the search reached max_nodes
 std::string given_up(const ExactSearchOptions& options) {
   return "given up after " + grouped(options.max_nodes) +
@@ -37,7 +41,10 @@ SearchRun run_best(const Exploration& exploration,
   run.given_up = best.is_complete ? "" : given_up(options);
   run.is_proven = best.is_proven;
   run.max_open = best.max_open;
-  run.bytes_per_node = best.bytes_per_node;
+  run.stored.nodes = best.stored_nodes;
+  run.stored.bytes_of_nodes = best.stored_nodes * static_cast<std::int64_t>(best.bytes_per_node);
+  run.stored.leaves = best.max_open;
+  run.stored.bytes_of_leaves = best.max_open * static_cast<std::int64_t>(best.bytes_per_open);
   if (best.map) {
     run.best_code = best.code;
     run.counts.optimal =
@@ -68,6 +75,26 @@ SearchRun run_search(SearchKind kind,
   return run;
 }
 
+double StoredTree::bytes_per_node() const {
+  return ratio(bytes_of_nodes, nodes);
+}
+
+double StoredTree::bytes_per_leaf() const {
+  return ratio(bytes_of_leaves, leaves);
+}
+
+double StoredTree::bytes_per_hypothesis() const {
+  return ratio(bytes_of_nodes + bytes_of_leaves, leaves);
+}
+
+StoredTree& StoredTree::operator+=(const StoredTree& other) {
+  nodes += other.nodes;
+  bytes_of_nodes += other.bytes_of_nodes;
+  leaves += other.leaves;
+  bytes_of_leaves += other.bytes_of_leaves;
+  return *this;
+}
+
 std::int64_t nodes_per_s(const SearchRun& run) {
   return std::llround(static_cast<double>(run.counts.tree_nodes) / std::max(run.cpu_s, 1e-9));
 }
@@ -80,10 +107,36 @@ std::string cost_text(const SearchRun& run) {
   const std::int64_t rounded = (nodes_per_s(run) + 500) / 1000 * 1000;
   std::string text = grouped(run.counts.tree_nodes) + " nodes in " +
                      clients::fixed(1000.0 * run.cpu_s, run.cpu_s < 0.1 ? 2 : 0) +
-                     " ms of CPU time (" + grouped(rounded) + " nodes/s), ";
-  text += run.bytes_per_node == 0 ? "none stored"
-                                  : std::to_string(run.bytes_per_node) + " bytes per stored node";
+                     " ms of CPU time (" + grouped(rounded) + " nodes/s" +
+                     (run.is_best_first || run.counting_cpu_s ? "" : ", counting included") + "), ";
+  if (run.counting_cpu_s) {
+    text += "then " + clients::fixed(1000.0 * *run.counting_cpu_s, 2) +
+            " ms to count final maps and regions, ";
+  }
+  const StoredTree& stored = run.stored;
+  text += stored.nodes == 0
+              ? "none stored"
+              : clients::fixed(stored.bytes_per_node(), 0) + " bytes per stored node, " +
+                    clients::fixed(stored.bytes_per_leaf(), 0) + " per leaf, " +
+                    clients::fixed(stored.bytes_per_hypothesis(), 0) +
+                    " per hypothesis with its share of the nodes";
   return text + ", peak memory " + clients::byte_size(peak_resident_bytes());
+}
+
+Json cost_json(const SearchRun& run) {
+  const StoredTree& stored = run.stored;
+  const auto if_stored = [&stored](double bytes) {
+    return stored.nodes == 0 ? Json() : Json(bytes);
+  };
+  return {
+      {"cpu_ms", milliseconds(run.cpu_s)},
+      {"counting_cpu_ms", run.counting_cpu_s ? Json(milliseconds(*run.counting_cpu_s)) : Json()},
+      {"nodes_per_s", nodes_per_s(run)},
+      {"stored_nodes", stored.nodes},
+      {"bytes_per_stored_node", if_stored(stored.bytes_per_node())},
+      {"bytes_per_leaf", if_stored(stored.bytes_per_leaf())},
+      {"bytes_per_hypothesis", if_stored(stored.bytes_per_hypothesis())},
+      {"peak_resident_bytes", peak_resident_bytes()}};
 }
 
 }  // namespace cairn::lab

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/lab/counts.hpp"
 #include "exact_search/exact_search.hpp"
 
 namespace cairn::lab {
@@ -15,6 +16,21 @@ enum class SearchKind {
   kBest,     ///< The most promising first, until a map is closed.
 };
 
+/// Memory of the hypotheses that a search keeps: their nodes, which they share, and what is known
+/// of each of them.
+struct StoredTree {
+  std::int64_t nodes = 0;  ///< 0: none is stored.
+  std::int64_t bytes_of_nodes = 0;
+  std::int64_t leaves = 0;  ///< Best-first: the most that ever waited.
+  std::int64_t bytes_of_leaves = 0;
+
+  [[nodiscard]] double bytes_per_node() const;
+  [[nodiscard]] double bytes_per_leaf() const;
+  /// A leaf and its share of the nodes.
+  [[nodiscard]] double bytes_per_hypothesis() const;
+  StoredTree& operator+=(const StoredTree& other);
+};
+
 /// A search and what it cost. With a bound on nodes it counts at most that many, and has come to
 /// its end if it needs no more. Breadth-first search is bounded by whole travels: where one makes
 /// too many nodes, what is counted is the tree before it.
@@ -24,10 +40,13 @@ struct SearchRun {
   std::string given_up;
   bool is_proven = false;  ///< Best-first: nothing that waited can be better.
   bool is_best_first = false;
-  std::string best_code;           ///< Best-first: the closed map; empty if there is none.
-  std::int64_t max_open = 0;       ///< Best-first: longest list of waiting nodes.
-  std::size_t bytes_per_node = 0;  ///< 0: no node is stored.
+  std::string best_code;      ///< Best-first: the closed map; empty if there is none.
+  std::int64_t max_open = 0;  ///< Best-first: longest list of waiting nodes.
+  StoredTree stored;
   double cpu_s = 0.0;
+  /// Breadth-first: of counting final maps and regions afterwards, which cpu_s is without. None:
+  /// counting is part of the search.
+  std::optional<double> counting_cpu_s;
 };
 
 /// @pre options and exploration are valid
@@ -41,7 +60,11 @@ struct SearchRun {
 /// With three decimals, for JSON.
 [[nodiscard]] double milliseconds(double seconds);
 
-/// "240 nodes in 0.31 ms of CPU time (774,000 nodes/s)" and what is known of memory.
+/// "240 nodes in 0.31 ms of CPU time (774,000 nodes/s)", whether counting is part of it, and what
+/// is known of memory.
 [[nodiscard]] std::string cost_text(const SearchRun& run);
+
+/// The same for JSON: times and memory by name, null where there is none.
+[[nodiscard]] Json cost_json(const SearchRun& run);
 
 }  // namespace cairn::lab

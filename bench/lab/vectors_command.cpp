@@ -62,12 +62,15 @@ class Outcome {
  public:
   void add(const TestVector& vector, bool planar, const Comparison& comparison) {
     const char* mode = planar ? "planar" : "nonplanar";
+    const MapCounts& counts = comparison.run.counts;
     ++total_;
     agreeing_ += comparison.differences.empty() ? 1 : 0;
-    nodes_ += comparison.run.counts.tree_nodes;
-    cpu_s_ += comparison.run.cpu_s;
-    bytes_per_node_ = comparison.run.bytes_per_node;
-    const MapCounts& counts = comparison.run.counts;
+    all_.counts.tree_nodes += counts.tree_nodes;
+    all_.cpu_s += comparison.run.cpu_s;
+    all_.stored += comparison.run.stored;
+    if (comparison.run.counting_cpu_s) {
+      all_.counting_cpu_s = all_.counting_cpu_s.value_or(0.0) + *comparison.run.counting_cpu_s;
+    }
     table_.add({clients::printable(vector.name), mode, grouped(counts.tree_nodes),
                 grouped(counts.maps_built), grouped(counts.final_maps),
                 grouped(counts.closed_paper), grouped(counts.region_consistent_finals),
@@ -85,31 +88,25 @@ class Outcome {
     for (const std::string& complaint : complaints_) {
       out << complaint << '\n';
     }
-    out << agreeing_ << " of " << total_ << " agree; " << summary() << '\n';
+    out << agreeing_ << " of " << total_ << " agree; " << cost_text(all_) << '\n';
   }
   [[nodiscard]] Json json(Json vectors) const {
-    return {
-        {"vectors", std::move(vectors)}, {"agreeing", agreeing_},          {"compared", total_},
-        {"tree_nodes", nodes_},          {"cpu_ms", milliseconds(cpu_s_)}, {"agrees", agrees()}};
+    Json json = {{"vectors", std::move(vectors)},
+                 {"agreeing", agreeing_},
+                 {"compared", total_},
+                 {"tree_nodes", all_.counts.tree_nodes},
+                 {"agrees", agrees()}};
+    json.update(cost_json(all_));
+    return json;
   }
 
  private:
-  [[nodiscard]] std::string summary() const {
-    SearchRun all;
-    all.counts.tree_nodes = nodes_;
-    all.cpu_s = cpu_s_;
-    all.bytes_per_node = bytes_per_node_;
-    return cost_text(all);
-  }
-
   clients::Table table_{{"exploration", "mode", "nodes", "maps", "final", "closed", "regions",
                          "optimal", "CPU ms", "counts"}};
   std::vector<std::string> complaints_;
   int total_ = 0;
   int agreeing_ = 0;
-  std::int64_t nodes_ = 0;
-  double cpu_s_ = 0.0;
-  std::size_t bytes_per_node_ = 0;
+  SearchRun all_;  ///< Summed.
 };
 
 }  // namespace

@@ -69,7 +69,9 @@ struct BestMap {
   std::int64_t tree_nodes = 0;  ///< Generated.
   std::int64_t maps_built = 0;
   std::int64_t max_open = 0;       ///< Longest list of nodes waiting.
+  std::int64_t stored_nodes = 0;   ///< 0 where it deepens iteratively.
   std::size_t bytes_per_node = 0;  ///< Stored.
+  std::size_t bytes_per_open = 0;  ///< Of a node that waits, beyond its own.
   bool is_proven = false;          ///< Nothing that waits can be better.
   bool is_complete = true;         ///< False: the search needs more nodes than max_nodes.
 };

@@ -49,7 +49,8 @@ class BestFirst {
   BestMap run() {
     BestMap best;
     best.tree_nodes = best.maps_built = 1;
-    best.bytes_per_node = sizeof(Node) + sizeof(std::int32_t);
+    best.bytes_per_node = sizeof(Node);
+    best.bytes_per_open = OpenList::kBytesPerNode;
     nodes_.push_back({-1, kStays});
     passed_.push_back({0, {}, state_.start()});
     if (state_.allows_start()) {
@@ -148,6 +149,7 @@ class BestFirst {
       nodes_.push_back({node.node, target});
     }
     best->max_open = std::max(best->max_open, open_.size());
+    best->stored_nodes = static_cast<std::int64_t>(nodes_.size());
   }
 
   [[nodiscard]] std::vector<MapChange> changes() const {

@@ -19,6 +19,9 @@ class OpenList {
     std::int32_t node = 0;
   };
 
+  /// Cost and depth are those of the list in which a node waits.
+  static constexpr std::size_t kBytesPerNode = sizeof(std::int32_t);
+
   void add(const Entry& entry);
   /// @pre !is_empty()
   Entry take();

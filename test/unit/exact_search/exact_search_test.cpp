@@ -286,7 +286,9 @@ TEST(BestMap, IterativeDeepeningFindsTheMapOfBestFirstSearch) {
   options.look_ahead = true;
   const BestMap deepened = find_best(grid, options, SearchOrder::kCorners);
   EXPECT_GT(best_first.bytes_per_node, 0U);
-  EXPECT_EQ(deepened.bytes_per_node, 0U);
+  EXPECT_GT(best_first.stored_nodes, 0);
+  EXPECT_LE(best_first.stored_nodes, best_first.tree_nodes);
+  EXPECT_EQ(deepened.stored_nodes, 0);
   EXPECT_EQ(deepened.code, best_first.code);
   EXPECT_TRUE(deepened.is_proven);
   EXPECT_EQ(deepened.map->place_count(), 144);

@@ -125,6 +125,26 @@ TEST(LabTopology, SaysInWhichTravelBreadthFirstSearchGivesUp) {
       HasSubstr("given up in travel 16 of 16, which makes more than 239 nodes"));
 }
 
+TEST(LabTopology, SaysWhatAHypothesisCosts) {
+  const auto cost = [](const std::string& search) {
+    return Json::parse(
+        run({"topology", "--grid", "3x3", "--planar", "--search", search, "--json"}).output);
+  };
+  EXPECT_TRUE(cost("depth")["bytes_per_hypothesis"].is_null());
+  EXPECT_TRUE(cost("depth")["counting_cpu_ms"].is_null());
+  for (const std::string search : {"breadth", "best"}) {
+    SCOPED_TRACE(search);
+    const Json json = cost(search);
+    EXPECT_GT(json["bytes_per_stored_node"], 0.0);
+    EXPECT_GT(json["bytes_per_leaf"], 0.0);
+    EXPECT_GT(json["bytes_per_hypothesis"], json["bytes_per_leaf"]);
+  }
+  EXPECT_GE(cost("breadth")["counting_cpu_ms"], 0.0);
+  EXPECT_THAT(run({"topology", "--grid", "3x3", "--search", "breadth"}).output,
+              HasSubstr(" ms to count final maps and regions"));
+  EXPECT_THAT(run({"topology", "--grid", "3x3"}).output, HasSubstr("counting included"));
+}
+
 TEST(LabTopology, WritesItsDrawings) {
   const TemporaryFolder folder;
   std::vector<std::string> arguments = {"topology", "--grid", "3x3", "--planar"};
