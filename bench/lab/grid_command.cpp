@@ -115,7 +115,8 @@ Json json_of(const TopologyRequest& request, const GridExploration& grid, const 
                {"title", title_of(request, grid)},
                {"moves", grid.moves},
                {"mode", request.search.planar ? "planar" : "nonplanar"},
-               {"search", name_of(request.kind)}};
+               {"search", name_of(request.kind)},
+               {"minimised", minimised(request.kind, request.search, request.order)}};
   if (run.is_best_first) {
     json["tree_nodes"] = run.counts.tree_nodes;
     json["maps_built"] = run.counts.maps_built;
@@ -141,7 +142,7 @@ std::string shortened(const std::string& code) {
   return code.size() <= kMost ? code : code.substr(0, kMost) + "... (all of it with --json)";
 }
 
-void print_best(const SearchRun& run, std::ostream& out) {
+void print_best(const TopologyRequest& request, const SearchRun& run, std::ostream& out) {
   if (!run.counts.optimal) {
     out << "  no map without pending gateways was found\n";
   } else {
@@ -150,7 +151,8 @@ void print_best(const SearchRun& run, std::ostream& out) {
         << (run.is_proven ? "none is better" : "a better one is not excluded") << "\n  "
         << shortened(run.best_code) << '\n';
   }
-  out << "  " << grouped(run.counts.tree_nodes) << " nodes made, " << grouped(run.counts.maps_built)
+  out << "  minimised: " << minimised(request.kind, request.search, request.order) << "\n  "
+      << grouped(run.counts.tree_nodes) << " nodes made, " << grouped(run.counts.maps_built)
       << " maps built, at most " << grouped(run.max_open) << " waiting\n";
 }
 
@@ -160,7 +162,7 @@ void print(const TopologyRequest& request,
            std::ostream& out) {
   out << title_of(request, grid) << ": " << grid.moves << '\n';
   if (run.is_best_first) {
-    print_best(run, out);
+    print_best(request, run, out);
   } else {
     print_counts(run.counts, out);
   }

@@ -30,9 +30,9 @@ SearchRun run_depth(const Exploration& exploration, const ExactSearchOptions& op
   return run;
 }
 
-SearchRun run_best(const Exploration& exploration,
-                   const ExactSearchOptions& options,
-                   SearchOrder order) {
+SearchRun run_best(const Exploration& exploration, ExactSearchOptions options, SearchOrder order) {
+  // Perpendicular maps are region-consistent.
+  options.region_consistent = !options.perpendicular;
   const BestMap best = find_best(exploration, options, order);
   SearchRun run;
   run.is_best_first = true;
@@ -73,6 +73,19 @@ SearchRun run_search(SearchKind kind,
   }
   run.cpu_s = cpu_time_s() - start_s;
   return run;
+}
+
+std::string minimised(SearchKind kind, const ExactSearchOptions& options, SearchOrder order) {
+  const std::string maps =
+      std::string(options.perpendicular ? "perpendicular" : "region-consistent") +
+      " maps without pending gateways";
+  if (kind == SearchKind::kBest && order == SearchOrder::kPlaces) {
+    return "places, then paths, of " + maps;
+  }
+  if (kind == SearchKind::kBest && order == SearchOrder::kCorners) {
+    return "corners (L), then places, of " + maps;
+  }
+  return "paths, then places, of " + maps;
 }
 
 double StoredTree::bytes_per_node() const {

@@ -49,11 +49,19 @@ struct SearchRun {
   std::optional<double> counting_cpu_s;
 };
 
+/// Best-first search looks at region-consistent maps only, so that the map it finds is optimal in
+/// the sense of the files of vectors whatever else is asked for: a map that is not never heals.
 /// @pre options and exploration are valid
 [[nodiscard]] SearchRun run_search(SearchKind kind,
                                    const Exploration& exploration,
                                    const ExactSearchOptions& options,
                                    SearchOrder order);
+
+/// What the optimal map, or the one that best-first search looks for, is the least of: "paths, then
+/// places, of region-consistent maps without pending gateways".
+[[nodiscard]] std::string minimised(SearchKind kind,
+                                    const ExactSearchOptions& options,
+                                    SearchOrder order);
 
 [[nodiscard]] std::int64_t nodes_per_s(const SearchRun& run);
 

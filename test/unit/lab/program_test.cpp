@@ -94,6 +94,24 @@ TEST(LabTopology, BestFirstSearchFindsTheTrueMap) {
   EXPECT_EQ(json["best"]["paths"], 10);
 }
 
+TEST(LabTopology, BestFirstSearchFindsAnOptimalMap) {
+  const std::vector<std::string> grid = {"topology", "--grid",       "4x4", "--planar",
+                                         "--json",   "--max-places", "16"};
+  const Json all = Json::parse(run(grid).output);
+  EXPECT_EQ(all["minimised"],
+            "paths, then places, of region-consistent maps without pending gateways");
+  for (const std::string order : {"paths", "places"}) {
+    SCOPED_TRACE(order);
+    std::vector<std::string> best_first = grid;
+    best_first.insert(best_first.end(), {"--search", "best", "--order", order});
+    const Json found = Json::parse(run(best_first).output);
+    EXPECT_EQ(found["best"]["paths"], all["optimal"]["paths"]);
+    EXPECT_EQ(found["best"]["places"], all["optimal"]["places"]);
+    EXPECT_THAT(all["optimal"]["codes"], testing::Contains(found["best"]["code"]));
+    EXPECT_EQ(found["minimised"] == all["minimised"], order == "paths");
+  }
+}
+
 TEST(LabTopology, SaysWhenItGivesUp) {
   const Ran ran = run({"topology", "--grid", "4x4", "--max-nodes", "1000"});
   ASSERT_EQ(ran.status, 0) << ran.errors;
