@@ -70,20 +70,81 @@ class Fragments {
   std::vector<int> parent_;
 };
 
-std::vector<DrawnPlace> places_of(const std::vector<CodedPlace>& coded,
+int gateway_count(const CodedPlace& place) {
+  return static_cast<int>(place.exits.size());
+}
+
+/// By visit, the place and the gateway of the code by which the robot came in. A map and where the
+/// robot is tell the whole way back: the gateway of arrival and the turn before the last travel.
+std::vector<CodedPlace::Exit> arrivals_of(const std::vector<CodedPlace>& coded,
+                                          const Exploration& seen) {
+  std::vector<CodedPlace::Exit> arrivals(seen.steps.size() + 1);
+  arrivals.back() = {0, 0};
+  for (Index step = seen.steps.size(); step-- > 0;) {
+    const CodedPlace::Exit at = arrivals[step + 1];
+    const CodedPlace::Exit from =
+        coded[static_cast<Index>(at.place)].exits[static_cast<Index>(at.offset)];
+    CAIRN_CHECK(from.place >= 0 && "the code is of another exploration");
+    const int count = gateway_count(coded[static_cast<Index>(from.place)]);
+    const int turn = seen.steps[step].turn % count;
+    arrivals[step] = {from.place, (from.offset - turn + count) % count};
+  }
+  return arrivals;
+}
+
+/// By place, the number of the gateway from which its code counts, in the star that was seen when
+/// the robot first came there.
+std::vector<int> first_gateways_of(const std::vector<CodedPlace>& coded, const Exploration& seen) {
+  const std::vector<CodedPlace::Exit> arrivals = arrivals_of(coded, seen);
+  std::vector<int> first(coded.size(), 0);
+  for (Index visit = arrivals.size(); visit-- > 0;) {
+    const CodedPlace::Exit at = arrivals[visit];
+    const int number = visit == 0 ? seen.start_gateway : seen.steps[visit - 1].arrival_gateway;
+    const int count = gateway_count(coded[static_cast<Index>(at.place)]);
+    first[static_cast<Index>(at.place)] = (number - at.offset + count) % count;
+  }
+  return first;
+}
+
+/// Renumbers the gateways of a code as their stars do.
+std::vector<CodedPlace> numbered_as_stars(const std::vector<CodedPlace>& coded,
+                                          const std::vector<int>& first) {
+  std::vector<CodedPlace> numbered = coded;
+  const auto number = [&](int place, int offset) {
+    return (first[static_cast<Index>(place)] + offset) %
+           gateway_count(coded[static_cast<Index>(place)]);
+  };
+  for (int place = 0; place < static_cast<int>(coded.size()); ++place) {
+    const auto& exits = coded[static_cast<Index>(place)].exits;
+    for (int offset = 0; offset < static_cast<int>(exits.size()); ++offset) {
+      CodedPlace::Exit exit = exits[static_cast<Index>(offset)];
+      exit.offset = exit.place < 0 ? 0 : number(exit.place, exit.offset);
+      numbered[static_cast<Index>(place)].exits[static_cast<Index>(number(place, offset))] = exit;
+    }
+  }
+  return numbered;
+}
+
+/// @param numbered its gateways are numbered as in the stars
+/// @param first by place, the gateway from which its view counts
+std::vector<DrawnPlace> places_of(const std::vector<CodedPlace>& numbered,
+                                  const std::vector<int>& first,
                                   const std::map<std::string, SeenView>& views) {
   std::vector<DrawnPlace> places;
-  for (Index place = 0; place < coded.size(); ++place) {
+  for (Index place = 0; place < numbered.size(); ++place) {
+    const CodedPlace& coded = numbered[place];
     DrawnPlace drawn;
-    drawn.star = views.at(coded[place].view).type;
-    const ViewCode& slots = views.at(coded[place].view).slots;
+    drawn.star = views.at(coded.view).type;
+    const ViewCode& slots = views.at(coded.view).slots;
     drawn.slots = static_cast<int>(slots.size());
     for (int slot = 0; slot < drawn.slots; ++slot) {
       if (slots[static_cast<Index>(slot)] % 2 == 1) {
         drawn.slot_of_gateway.push_back(slot);
       }
     }
-    for (const CodedPlace::Exit& exit : coded[place].exits) {
+    std::rotate(drawn.slot_of_gateway.begin(), drawn.slot_of_gateway.end() - first[place],
+                drawn.slot_of_gateway.end());
+    for (const CodedPlace::Exit& exit : coded.exits) {
       drawn.is_pending.push_back(exit.place < 0);
     }
     places.push_back(std::move(drawn));
@@ -91,10 +152,10 @@ std::vector<DrawnPlace> places_of(const std::vector<CodedPlace>& coded,
   return places;
 }
 
-std::vector<DrawnLink> links_of(const std::vector<CodedPlace>& coded) {
+std::vector<DrawnLink> links_of(const std::vector<CodedPlace>& numbered) {
   std::vector<DrawnLink> links;
-  for (int place = 0; place < static_cast<int>(coded.size()); ++place) {
-    const auto& exits = coded[static_cast<Index>(place)].exits;
+  for (int place = 0; place < static_cast<int>(numbered.size()); ++place) {
+    const auto& exits = numbered[static_cast<Index>(place)].exits;
     for (int gateway = 0; gateway < static_cast<int>(exits.size()); ++gateway) {
       const CodedPlace::Exit& exit = exits[static_cast<Index>(gateway)];
       if (std::pair(place, gateway) < std::pair(exit.place, exit.offset)) {
@@ -146,8 +207,11 @@ DrawnMap drawn_map(const std::string& code, const Exploration& seen, const std::
   }
   DrawnMap map;
   map.title = title;
-  map.places = places_of(coded, views);
-  map.links = links_of(coded);
+  const std::vector<int> first = first_gateways_of(coded, seen);
+  const std::vector<CodedPlace> numbered = numbered_as_stars(coded, first);
+  map.places = places_of(numbered, first, views);
+  map.links = links_of(numbered);
+  map.robot_gateway = first[0];
   number_paths(stars, &map);
   return map;
 }

@@ -11,7 +11,7 @@ namespace cairn::lab {
 struct DrawnPlace {
   std::string star;  ///< Its type.
   int slots = 0;
-  std::vector<int> slot_of_gateway;  ///< Clockwise, of all slots.
+  std::vector<int> slot_of_gateway;  ///< Of all slots, clockwise from the same one for all.
   std::vector<int> path_of_gateway;  ///< Position in the list of paths.
   std::vector<bool> is_pending;      ///< By gateway.
 };
@@ -24,7 +24,9 @@ struct DrawnLink {
   int path = 0;
 };
 
-/// Plain data of a map, for pictures. Places are numbered from the robot's on, gateways clockwise.
+/// Plain data of a map, for pictures. Places are numbered from the robot's on; gateways as in the
+/// star that was seen when the robot first came to their place, as in the experience: the one of
+/// arrival has the number that the step says.
 struct DrawnMap {
   std::string title;
   std::vector<DrawnPlace> places;
@@ -36,7 +38,7 @@ struct DrawnMap {
 
 /// The map that a canonical code stands for.
 /// @param seen the exploration that the map explains: where the stars are found
-/// @pre the code was made from a map of that exploration
+/// @pre the code was made from a map of that whole exploration
 [[nodiscard]] DrawnMap drawn_map(const std::string& code,
                                  const Exploration& seen,
                                  const std::string& title);

@@ -56,8 +56,9 @@ std::string dot_quoted(const std::string& text) {
 std::string map_dot(const DrawnMap& map) {
   const std::vector<DrawnPosition> positions = laid_out(map);
   std::ostringstream dot;
-  dot << "// Positions are set: neato -n2 -Tpng\ngraph map {\n  label=" << dot_quoted(map.title)
-      << ";\n  node [shape=circle, fontname=\"sans-serif\"];\n"
+  dot << "// Positions are set: neato -n2 -Tpng\n"
+      << "// Gateways are numbered as in the star seen first at their place.\ngraph map {\n  label="
+      << dot_quoted(map.title) << ";\n  node [shape=circle, fontname=\"sans-serif\"];\n"
       << "  edge [penwidth=2, fontsize=9, fontname=\"sans-serif\"];\n";
   for (Index place = 0; place < map.places.size(); ++place) {
     const DrawnPlace& drawn = map.places[place];
@@ -95,7 +96,8 @@ std::string map_graphml(const DrawnMap& map) {
   std::ostringstream xml;
   xml << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       << "<!-- " << clients::xml_escaped(map.title)
-      << ". Gateways are numbered clockwise; x to the right, y down, links about 1 long. -->\n"
+      << ". Gateways are numbered as in the star seen first at their place; x to the right, y "
+         "down, links about 1 long. -->\n"
       << "<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n"
       << key("star", "node", "string") << key("num_gateways", "node", "int")
       << key("pending_gateways", "node", "string") << key("is_robot_here", "node", "boolean")

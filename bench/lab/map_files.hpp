@@ -10,8 +10,8 @@ namespace cairn::lab {
 /// gateways as dashed stubs.
 [[nodiscard]] std::string map_dot(const DrawnMap& map);
 
-/// The map as GraphML: gateway numbers, their order and paths kept; every place says which of its
-/// gateways are pending.
+/// The map as GraphML: gateway numbers, clockwise as in their stars, and paths kept; every place
+/// says which of its gateways are pending.
 [[nodiscard]] std::string map_graphml(const DrawnMap& map);
 
 /// The map as a drawing that keeps the order of gateways around their places: paths in colours and

@@ -68,9 +68,9 @@ class Drawing {
          << "\" height=\"" << fixed(height, 0) << "\" font-family=\"sans-serif\">\n"
          << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
          << label({14.0, 22.0}, "font-size=\"14\" font-weight=\"bold\"", map_.title)
-         << label(
-                {14.0, 40.0}, "font-size=\"11\" fill=\"#555\"",
-                "Circles: places with number and type of star. Small numbers: gateways, clockwise.")
+         << label({14.0, 40.0}, "font-size=\"11\" fill=\"#555\"",
+                  "Circles: places with number and type of star. Small numbers: gateways, as the "
+                  "star has them.")
          << label({14.0, 55.0}, "font-size=\"11\" fill=\"#555\"",
                   "Colours: paths. Dashed: pending. Yellow: the robot and its heading.");
     for (const DrawnLink& link : map_.links) {

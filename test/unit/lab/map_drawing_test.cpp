@@ -40,12 +40,48 @@ TEST(DrawnMap, HasThePlacesLinksAndPathsOfItsCode) {
   EXPECT_EQ(stars, (std::multiset<std::string>{"+", "L", "L", "L", "L", "T", "T", "T", "T"}));
 }
 
+// What the robot did, done again in the drawn map, leads through it with the same numbers.
+TEST(DrawnMap, NumbersGatewaysAsTheStarsDo) {
+  const Exploration exploration = grid_exploration(3, 3, snake_moves(3, 3));
+  const DrawnMap map = drawn_grid(3, 3);
+  const auto across = [&map](std::pair<int, int> from) {
+    for (const DrawnLink& link : map.links) {
+      if (from == std::pair(link.from_place, link.from_gateway)) {
+        return std::pair(link.to_place, link.to_gateway);
+      }
+      if (from == std::pair(link.to_place, link.to_gateway)) {
+        return std::pair(link.from_place, link.from_gateway);
+      }
+    }
+    return std::pair(-1, -1);
+  };
+  std::set<std::pair<int, int>> ends;
+  for (int start = 0; start < static_cast<int>(map.places.size()); ++start) {
+    std::pair at(start, exploration.start_gateway);
+    bool agrees = map.places[static_cast<std::size_t>(start)].star == "L";
+    for (const ExplorationStep& step : exploration.steps) {
+      const int gateways =
+          agrees
+              ? static_cast<int>(map.places[static_cast<std::size_t>(at.first)].is_pending.size())
+              : 1;
+      at = across({at.first, (at.second + step.turn) % gateways});
+      // In a grid all visits to a place see the same star with the same numbers.
+      agrees = agrees && at.first >= 0 && at.second == step.arrival_gateway;
+    }
+    if (agrees) {
+      ends.insert(at);
+    }
+  }
+  EXPECT_EQ(ends, (std::set{std::pair(map.robot_place, map.robot_gateway)}));
+}
+
 TEST(DrawnMap, KeepsWhatIsPending) {
   const Exploration exploration = grid_exploration(2, 2, "E");
   const DrawnMap map = drawn_map("L1[1.0 -]L0[0.0 -]", exploration, "");
   ASSERT_EQ(map.places.size(), 2U);
-  EXPECT_FALSE(map.places[0].is_pending[0]);
-  EXPECT_TRUE(map.places[0].is_pending[1]);
+  EXPECT_TRUE(map.places[0].is_pending[0]);
+  EXPECT_FALSE(map.places[0].is_pending[1]);
+  EXPECT_EQ(map.robot_gateway, 1);
   EXPECT_EQ(map.path_count, 3);
   EXPECT_THAT(map_svg(map), HasSubstr("stroke-dasharray"));
   EXPECT_THAT(map_graphml(map), HasSubstr("<data key=\"pending_gateways\">1</data>"));
