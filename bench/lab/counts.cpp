@@ -36,8 +36,10 @@ Json minimal_json(const std::optional<MinimalRegionMaps>& minimal, const ViewNam
   }
   Json json = {{"paths", minimal->paths},
                {"places", minimal->places},
+               {"paths_with_two_places", minimal->paths_with_two_places},
                {"count", minimal->count},
-               {"count_without_triangles", minimal->count_without_triangles}};
+               {"count_without_triangles", minimal->count_without_triangles},
+               {"count_fewest_order_atoms", minimal->count_fewest_order_atoms}};
   if (!minimal->codes.empty()) {
     json["codes"] = codes_json(minimal->codes, names);
   }
@@ -117,7 +119,11 @@ void print_counts(const MapCounts& counts, std::ostream& out) {
     const MinimalRegionMaps& minimal = *counts.minimal_region;
     print_line(out, "simplest region-consistent",
                simplest_text(minimal.count, minimal.paths, minimal.places) + ", " +
-                   grouped(minimal.count_without_triangles) + " without triangles");
+                   grouped(minimal.count_without_triangles) + " without triangles, " +
+                   grouped(minimal.count_fewest_order_atoms) + " with the fewest order atoms (" +
+                   grouped(minimal.order_atoms) + "); " +
+                   std::to_string(minimal.paths_with_two_places) +
+                   " paths from two places or more");
   }
   print_line(out, "maps after each travel", joined(counts.leaves_per_step));
   print_line(out, "  region-consistent", joined(counts.region_leaves_per_step));

@@ -6,6 +6,7 @@
 #include "base/check.hpp"
 #include "bench/lab/resources.hpp"
 #include "bench/lab/text.hpp"
+#include "exact_search/order_atoms.hpp"
 #include "topology/hypothesis_tree.hpp"
 #include "topology/paths.hpp"
 #include "topology/regions.hpp"
@@ -52,6 +53,7 @@ void count_final(const TopologicalMap& map, MapCounts& counts) {
   }
   if (is_simplest(map, &counts.minimal_region)) {
     ++counts.minimal_region->count;
+    count_order_atoms(map, &*counts.minimal_region);
     if (!has_triangle(map)) {
       ++counts.minimal_region->count_without_triangles;
       counts.minimal_region->codes.push_back(canonical_code(map));

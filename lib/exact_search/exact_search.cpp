@@ -23,7 +23,7 @@ class Enumerator {
   Enumeration run() {
     tally_.count_start();
     if (walk_.step_count() == 0) {
-      add_codes(tally_.count_final(state_.start()), {});
+      look_closer(tally_.count_final(state_.start()), {});
     } else if (state_.allows_start()) {
       search_.search();
     }
@@ -39,11 +39,11 @@ class Enumerator {
     if (step + 1 < walk_.step_count()) {
       return true;
     }
-    const MapTally::WantedCodes wanted = tally_.count_final(leaf.summary);
-    if (wanted.optimal || wanted.minimal_region) {
+    const MapTally::Wanted wanted = tally_.count_final(leaf.summary);
+    if (wanted.any()) {
       std::vector<MapChange> changes = search_.changes();
       changes.push_back(leaf.change);
-      add_codes(wanted, changes);
+      look_closer(wanted, changes);
     }
     return false;
   }
@@ -51,8 +51,8 @@ class Enumerator {
   [[nodiscard]] bool is_done() const { return is_given_up_; }
 
  private:
-  void add_codes(MapTally::WantedCodes wanted, const std::vector<MapChange>& changes) {
-    tally_.add_code(wanted, canonical_code(replay(walk_, changes)));
+  void look_closer(MapTally::Wanted wanted, const std::vector<MapChange>& changes) {
+    tally_.look_closer(wanted, replay(walk_, changes));
   }
 
   const ObservedWalk& walk_;

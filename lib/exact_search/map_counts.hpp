@@ -21,7 +21,13 @@ struct MinimalRegionMaps {
   std::int64_t count = 0;
   int paths = 0;
   int places = 0;
+  /// Paths known from two places or more: the fewest that one of the maps has.
+  int paths_with_two_places = 0;
   std::int64_t count_without_triangles = 0;
+  /// Pairs of places in order on a path, summed over the paths of a map: the fewest, and how many
+  /// of the maps have no more. Another preference that leaves the maps without triangles.
+  std::int64_t order_atoms = 0;
+  std::int64_t count_fewest_order_atoms = 0;
   std::vector<std::string> codes;  ///< Of those without triangles.
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "exact_search/order_atoms.hpp"
+
 namespace cairn {
 namespace {
 
@@ -39,53 +41,60 @@ void MapTally::count(const Successor& leaf, int step) {
       leaf.summary.region_consistent ? 1 : 0;
 }
 
-MapTally::WantedCodes MapTally::count_final(const MapSummary& map) {
+MapTally::Wanted MapTally::count_final(const MapSummary& map) {
   ++counts_.final_maps;
   const bool is_closed_paper = map.lone_paths == 0;
   counts_.closed_paper += is_closed_paper ? 1 : 0;
   counts_.closed_no_pending += map.pending == 0 ? 1 : 0;
   counts_.perpendicular_closed_paper += is_closed_paper && map.perpendicular ? 1 : 0;
-  if (!map.region_consistent) {
-    return {};
+  Wanted wanted;
+  if (map.region_consistent) {
+    ++counts_.region_consistent_finals;
+    count_optimal(map, &wanted);
+    count_minimal(map, &wanted);
   }
-  ++counts_.region_consistent_finals;
-  return {map.pending == 0 && count_optimal(map), count_minimal(map)};
+  return wanted;
 }
 
-bool MapTally::count_optimal(const MapSummary& map) {
-  if (!is_simplest(map, &counts_.optimal)) {
-    return false;
+void MapTally::count_optimal(const MapSummary& map, Wanted* wanted) {
+  if (map.pending > 0 || !is_simplest(map, &counts_.optimal)) {
+    return;
   }
   ++counts_.optimal->count;
-  if (counts_.optimal->count > max_codes_) {
+  wanted->optimal_code = counts_.optimal->count <= max_codes_;
+  if (!wanted->optimal_code) {
     counts_.optimal->codes.clear();
-    return false;
   }
-  return true;
 }
 
-bool MapTally::count_minimal(const MapSummary& map) {
+void MapTally::count_minimal(const MapSummary& map, Wanted* wanted) {
   if (!is_simplest(map, &counts_.minimal_region)) {
-    return false;
+    return;
   }
   ++counts_.minimal_region->count;
+  wanted->order = true;
   if (!map.perpendicular) {  // A region-consistent map has no double meetings.
-    return false;
+    return;
   }
   ++counts_.minimal_region->count_without_triangles;
-  if (counts_.minimal_region->count_without_triangles > max_codes_) {
+  wanted->minimal_code = counts_.minimal_region->count_without_triangles <= max_codes_;
+  if (!wanted->minimal_code) {
     counts_.minimal_region->codes.clear();
-    return false;
   }
-  return true;
 }
 
-void MapTally::add_code(WantedCodes wanted, const std::string& code) {
-  if (wanted.optimal) {
-    counts_.optimal->codes.push_back(code);
+void MapTally::look_closer(Wanted wanted, const TopologicalMap& map) {
+  if (wanted.optimal_code || wanted.minimal_code) {
+    const std::string code = canonical_code(map);
+    if (wanted.optimal_code) {
+      counts_.optimal->codes.push_back(code);
+    }
+    if (wanted.minimal_code) {
+      counts_.minimal_region->codes.push_back(code);
+    }
   }
-  if (wanted.minimal_region) {
-    counts_.minimal_region->codes.push_back(code);
+  if (wanted.order) {
+    count_order_atoms(map, &*counts_.minimal_region);
   }
 }
 

@@ -90,6 +90,8 @@ void expect_minimal(const MapCounts& counts,
   EXPECT_EQ(counts.minimal_region->paths, expected["paths"]);
   EXPECT_EQ(counts.minimal_region->places, expected["places"]);
   EXPECT_EQ(counts.minimal_region->count_without_triangles, expected["count_without_triangles"]);
+  EXPECT_EQ(counts.minimal_region->count_fewest_order_atoms, expected["count_fewest_order_atoms"]);
+  EXPECT_EQ(counts.minimal_region->paths_with_two_places, expected["paths_with_two_places"]);
   EXPECT_EQ(renamed(counts.minimal_region->codes, stars),
             expected["codes"].get<std::vector<std::string>>());
 }

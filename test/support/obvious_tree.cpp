@@ -89,6 +89,8 @@ struct Simple {
   int places = 0;
   bool has_triangle = false;
   std::string code;
+  int paths_with_two_places = 0;
+  std::int64_t order_atoms = 0;
 };
 
 /// Those of the fewest paths, and of these of the fewest places.
@@ -132,7 +134,15 @@ std::optional<MinimalRegionMaps> minimal_region_of(const std::vector<Simple>& ma
   minimal.count = static_cast<std::int64_t>(simplest.size());
   minimal.paths = simplest.front().paths;
   minimal.places = simplest.front().places;
+  const auto fewest = [&simplest](auto field) {
+    return std::min_element(
+        simplest.begin(), simplest.end(),
+        [field](const Simple& a, const Simple& b) { return a.*field < b.*field; });
+  };
+  minimal.paths_with_two_places = fewest(&Simple::paths_with_two_places)->paths_with_two_places;
+  minimal.order_atoms = fewest(&Simple::order_atoms)->order_atoms;
   for (const Simple& map : simplest) {
+    minimal.count_fewest_order_atoms += map.order_atoms == minimal.order_atoms ? 1 : 0;
     if (!map.has_triangle) {
       minimal.codes.push_back(map.code);
     }
@@ -182,7 +192,12 @@ MapCounts counts_of(const ObviousTree& tree) {
     if (is_region_consistent(map)) {
       ++counts.region_consistent_finals;
       consistent.push_back({static_cast<int>(paths.size()), static_cast<int>(map.places.size()),
-                            has_triangle(map), obvious_code(map)});
+                            has_triangle(map), obvious_code(map), 0, 0});
+      for (const std::set<int>& places : paths) {
+        const auto size = static_cast<std::int64_t>(places.size());
+        consistent.back().paths_with_two_places += size > 1 ? 1 : 0;
+        consistent.back().order_atoms += size * (size - 1) / 2;
+      }
       if (is_closed(map)) {
         closed.push_back(consistent.back());
       }
