@@ -49,19 +49,40 @@ Json minimal_json(const std::optional<MinimalRegionMaps>& minimal, const ViewNam
 void compare(const std::string& field,
              const Json& expected,
              const Json& counted,
-             std::vector<std::string>* found) {
+             Differences* differences);
+
+void compare_members(const std::string& prefix,
+                     const Json& expected,
+                     const Json& counted,
+                     Differences* differences) {
+  for (const auto& [name, value] : expected.items()) {
+    if (counted.contains(name)) {
+      compare(prefix + name, value, counted[name], differences);
+    } else {
+      differences->not_counted.insert(prefix + name);
+    }
+  }
+}
+
+void compare(const std::string& field,
+             const Json& expected,
+             const Json& counted,
+             Differences* differences) {
   if (expected.is_object() && counted.is_object()) {
-    for (const auto& [name, value] : expected.items()) {
-      if (counted.contains(name)) {
-        compare(field + "." + name, value, counted[name], found);
-      }
+    compare_members(field + ".", expected, counted, differences);
+    return;
+  }
+  differences->compared.insert(field);
+  const auto hold = [&](const std::string& name, const Json& one, const Json& other) {
+    if (one != other) {
+      differences->found.push_back(name + ": expected " + one.dump() + ", got " + other.dump());
     }
-  } else if (expected.is_array() && counted.is_array() && expected.size() == counted.size()) {
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-      compare(field + "[" + std::to_string(i) + "]", expected[i], counted[i], found);
-    }
-  } else if (expected != counted) {
-    found->push_back(field + ": expected " + expected.dump() + ", got " + counted.dump());
+  };
+  if (!expected.is_array() || !counted.is_array() || expected.size() != counted.size()) {
+    return hold(field, expected, counted);
+  }
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    hold(field + "[" + std::to_string(i) + "]", expected[i], counted[i]);
   }
 }
 
@@ -92,14 +113,10 @@ Json to_json(const MapCounts& counts, const ViewNames& names) {
           {"minimal_region", minimal_json(counts.minimal_region, names)}};
 }
 
-std::vector<std::string> differences(const Json& expected, const Json& counted) {
-  std::vector<std::string> found;
-  for (const auto& [field, value] : expected.items()) {
-    if (counted.contains(field)) {
-      compare(field, value, counted[field], &found);
-    }
-  }
-  return found;
+Differences differences(const Json& expected, const Json& counted) {
+  Differences differences;
+  compare_members("", expected, counted, &differences);
+  return differences;
 }
 
 void print_counts(const MapCounts& counts, std::ostream& out) {

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <ostream>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,16 @@ using ViewNames = std::map<std::string, std::string>;
 /// The counts, by the names of the files of vectors.
 [[nodiscard]] Json to_json(const MapCounts& counts, const ViewNames& names = {});
 
-/// What is not as expected, one line for each field: "tree_nodes: expected 317, got 318". Fields
-/// that are not expected are not compared.
-[[nodiscard]] std::vector<std::string> differences(const Json& expected, const Json& counted);
+/// Expected counts held against those counted.
+struct Differences {
+  /// One line for each field: "tree_nodes: expected 317, got 318".
+  std::vector<std::string> found;
+  /// Fields that both have, "optimal.count", sorted; of those that are only expected nothing can be
+  /// said.
+  std::set<std::string> compared;
+  std::set<std::string> not_counted;
+};
+[[nodiscard]] Differences differences(const Json& expected, const Json& counted);
 
 /// The counts for people, a line each.
 void print_counts(const MapCounts& counts, std::ostream& out);

@@ -1,4 +1,6 @@
 #include <ostream>
+#include <set>
+#include <utility>
 
 #include "bench/lab/counts.hpp"
 #include "bench/lab/text.hpp"
@@ -14,7 +16,7 @@ namespace {
 struct Comparison {
   SearchRun run;
   Json counted;
-  std::vector<std::string> differences;
+  Differences differences;
 };
 
 /// What remains of a file's counts when maps that are not region-consistent are pruned early: they
@@ -46,8 +48,13 @@ Comparison compared(const TestVector& vector,
   comparison.run = run_search(request.kind, vector.exploration, options, SearchOrder::kPaths);
   comparison.counted = to_json(comparison.run.counts, names);
   const Json& expected = planar ? vector.planar : vector.nonplanar;
-  comparison.differences = differences(
-      options.region_consistent ? under_region_axiom(expected) : expected, comparison.counted);
+  const Json comparable = options.region_consistent ? under_region_axiom(expected) : expected;
+  comparison.differences = differences(comparable, comparison.counted);
+  for (const auto& [field, value] : expected.items()) {
+    if (!comparable.contains(field)) {
+      comparison.differences.not_counted.insert(field);
+    }
+  }
   // The same fields as the file has.
   for (const char* optional : {"region_leaves_per_step", "minimal_region"}) {
     if (!expected.contains(optional)) {
@@ -60,11 +67,16 @@ Comparison compared(const TestVector& vector,
 /// Collects what is printed at the end.
 class Outcome {
  public:
+  explicit Outcome(bool has_region_axiom) : has_region_axiom_(has_region_axiom) {}
+
   void add(const TestVector& vector, bool planar, const Comparison& comparison) {
     const char* mode = planar ? "planar" : "nonplanar";
     const MapCounts& counts = comparison.run.counts;
+    const Differences& differences = comparison.differences;
     ++total_;
-    agreeing_ += comparison.differences.empty() ? 1 : 0;
+    agreeing_ += differences.found.empty() ? 1 : 0;
+    compared_.insert(differences.compared.begin(), differences.compared.end());
+    not_compared_.insert(differences.not_counted.begin(), differences.not_counted.end());
     all_.counts.tree_nodes += counts.tree_nodes;
     all_.cpu_s += comparison.run.cpu_s;
     all_.stored += comparison.run.stored;
@@ -76,8 +88,8 @@ class Outcome {
                 grouped(counts.closed_paper), grouped(counts.region_consistent_finals),
                 counts.optimal ? grouped(counts.optimal->count) : "-",
                 clients::fixed(1000.0 * comparison.run.cpu_s, 2),
-                comparison.differences.empty() ? "agrees" : "DIFFERS"});
-    for (const std::string& difference : comparison.differences) {
+                differences.found.empty() ? "agrees" : "DIFFERS"});
+    for (const std::string& difference : differences.found) {
       complaints_.push_back(clients::printable(vector.name) + ", " + mode + ": " + difference);
     }
   }
@@ -88,12 +100,19 @@ class Outcome {
     for (const std::string& complaint : complaints_) {
       out << complaint << '\n';
     }
+    out << "compared: " << listed(compared_) << '\n';
+    if (!not_compared_.empty()) {
+      out << "in the file, but not compared" << why_not_compared() << ": " << listed(not_compared_)
+          << '\n';
+    }
     out << agreeing_ << " of " << total_ << " agree; " << cost_text(all_) << '\n';
   }
   [[nodiscard]] Json json(Json vectors) const {
     Json json = {{"vectors", std::move(vectors)},
                  {"agreeing", agreeing_},
                  {"compared", total_},
+                 {"fields_compared", compared_},
+                 {"fields_not_compared", not_compared_},
                  {"tree_nodes", all_.counts.tree_nodes},
                  {"agrees", agrees()}};
     json.update(cost_json(all_));
@@ -101,6 +120,21 @@ class Outcome {
   }
 
  private:
+  static std::string listed(const std::set<std::string>& fields) {
+    std::string list;
+    for (const std::string& field : fields) {
+      list += (list.empty() ? "" : ", ") + clients::printable(field);
+    }
+    return list;
+  }
+  [[nodiscard]] std::string why_not_compared() const {
+    return has_region_axiom_ ? " (--region-axiom: the file counts them without the axiom)"
+                             : " (not counted here)";
+  }
+
+  bool has_region_axiom_;
+  std::set<std::string> compared_;
+  std::set<std::string> not_compared_;
   clients::Table table_{{"exploration", "mode", "nodes", "maps", "final", "closed", "regions",
                          "optimal", "CPU ms", "counts"}};
   std::vector<std::string> complaints_;
@@ -113,7 +147,7 @@ class Outcome {
 
 int explore_vectors(const TopologyRequest& request, std::ostream& out) {
   const VectorsFile file = read_vectors(request.vectors_file);
-  Outcome outcome;
+  Outcome outcome(request.search.region_consistent);
   Json vectors = Json::array();
   {
     clients::Progress progress("explorations");
@@ -130,9 +164,9 @@ int explore_vectors(const TopologyRequest& request, std::ostream& out) {
           if (planar == request.search.planar) {
             entry.update(comparison.counted);
           }
-          entry["agrees"] = entry.value("agrees", true) && comparison.differences.empty();
-          if (!comparison.differences.empty()) {
-            complaints[mode] = comparison.differences;
+          entry["agrees"] = entry.value("agrees", true) && comparison.differences.found.empty();
+          if (!comparison.differences.found.empty()) {
+            complaints[mode] = comparison.differences.found;
           }
           outcome.add(vector, planar, comparison);
         }

@@ -59,11 +59,13 @@ Json square_loop() {
   return file;
 }
 
-Ran run_on(const Json& file) {
+Ran run_on(const Json& file, const std::vector<std::string>& options = {}) {
   const TemporaryFolder folder;
   const std::string path = (folder / "vectors.json").string();
   std::ofstream(path) << file.dump();
-  return run({"topology", "--vectors", path});
+  std::vector<std::string> arguments = {"topology", "--vectors", path};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  return run(arguments);
 }
 
 TEST(LabTopology, CountsTheGridsOfFigure4) {
@@ -202,6 +204,21 @@ TEST(LabTopology, ComparesWithAFileOfVectors) {
   const Ran ran = run_on(square_loop());
   EXPECT_EQ(ran.status, 0) << ran.output << ran.errors;
   EXPECT_THAT(ran.output, HasSubstr("2 of 2 agree"));
+}
+
+TEST(LabTopology, SaysWhatItCompared) {
+  Json file = square_loop();
+  file["vectors"][0]["planar"]["final_genus"] = 0;
+  const Ran all = run_on(file);
+  EXPECT_THAT(all.output, HasSubstr("final_maps, leaves_per_step, maps_built"));
+  EXPECT_THAT(all.output,
+              HasSubstr("in the file, but not compared (not counted here): final_genus"));
+  const Ran under_axiom = run_on(file, {"--region-axiom", "--json"});
+  EXPECT_EQ(under_axiom.status, 0) << under_axiom.output << under_axiom.errors;
+  const Json json = Json::parse(under_axiom.output);
+  EXPECT_THAT(json["fields_compared"], testing::Contains("final_maps"));
+  EXPECT_THAT(json["fields_not_compared"], testing::Contains("tree_nodes"));
+  EXPECT_THAT(json["fields_not_compared"], testing::Contains("closed_paper"));
 }
 
 TEST(LabTopology, SaysWhichCountDiffers) {
