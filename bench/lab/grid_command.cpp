@@ -50,6 +50,17 @@ std::pair<int, int> two_numbers(const std::string& option,
   return {number(begin, begin + middle), number(begin + middle + 1, begin + text.size())};
 }
 
+/// A complaint about a search, its fields by the names of their options.
+std::string as_options(std::string complaint) {
+  const std::string object = "exact search.";
+  for (std::size_t at = complaint.find(object); at != std::string::npos;
+       at = complaint.find(object, at)) {
+    complaint.replace(at, object.size(), "--");
+  }
+  std::replace(complaint.begin(), complaint.end(), '_', '-');
+  return complaint;
+}
+
 /// What is explored.
 struct GridExploration {
   int rows = 0;
@@ -225,21 +236,14 @@ void write_tree(const TopologyRequest& request, const GridExploration& grid) {
   if (request.tree_dot_file.empty()) {
     return;
   }
-  const ExactSearchOptions& search = request.search;
-  if (search.perpendicular || search.look_ahead || search.max_corners ||
-      search.straight_corridors || search.compass) {
-    throw Failure(ExitCode::kUsage,
-                  "--tree-dot draws whole trees: of the options that drop maps, it knows --planar, "
-                  "--region-axiom and --max-places");
-  }
-  ExactSearchOptions bounded = search;
+  ExactSearchOptions bounded = request.search;
   bounded.max_nodes = kMostDrawnNodes;
   if (!enumerate(grid.walk.exploration, bounded).is_complete) {
     throw Failure(ExitCode::kBadData, "--tree-dot: the tree has more than " +
                                           grouped(kMostDrawnNodes) +
                                           " nodes, too many for a picture; shorten the walk");
   }
-  const std::vector<TreeNode> nodes = nodes_of_tree(grid.walk.exploration, search);
+  const std::vector<TreeNode> nodes = nodes_of_tree(grid.walk.exploration, request.search);
   clients::write_file(request.tree_dot_file, tree_dot(nodes, title_of(request, grid)));
 }
 
@@ -250,8 +254,11 @@ int explore_grid(const TopologyRequest& request, std::ostream& out) {
   ExactSearchOptions options = request.search;
   // All that there are, since one of them may be drawn.
   options.max_codes = 100'000;
-  if (const Status status = validate(options, grid.walk.exploration); !status) {
-    throw Failure(ExitCode::kUsage, status.error().message);
+  const Status status = request.kind == SearchKind::kBest
+                            ? validate(options, grid.walk.exploration, request.order)
+                            : validate(options, grid.walk.exploration);
+  if (!status) {
+    throw Failure(ExitCode::kUsage, as_options(status.error().message));
   }
   write_tree(request, grid);
   SearchRun run;

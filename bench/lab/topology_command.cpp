@@ -1,6 +1,9 @@
 #include "bench/lab/topology_command.hpp"
 
-#include <array>
+#include <charconv>
+#include <filesystem>
+#include <limits>
+#include <map>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -8,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "clients/common/failure.hpp"
+#include "clients/common/text.hpp"
 
 namespace cairn::lab {
 namespace {
@@ -50,6 +54,22 @@ CLI::Option* add_choice(CLI::App& command,
   return command.add_option_function<std::string>(name, choose, help)->type_name(names);
 }
 
+/// CLI11 wraps what does not fit into 64 bits.
+std::uint64_t seed_of(const std::string& text) {
+  std::uint64_t seed = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (text.empty() || error != std::errc() || stop != text.data() + text.size()) {
+    throw CLI::ValidationError("--random", "expected a seed from 0 to 18446744073709551615, got '" +
+                                               clients::printable(text) + "'");
+  }
+  return seed;
+}
+
+/// Of a file that is read or written.
+std::string empty_name(const std::string& name) {
+  return name.empty() ? "expected the name of a file, got an empty one" : "";
+}
+
 /// Options that only make sense with --grid.
 struct GridOptions {
   std::vector<CLI::Option*> options;
@@ -63,11 +83,13 @@ void add_sources(CLI::App& command, TopologyRequest* request, GridOptions* grid)
       command
           .add_option("--vectors", request->vectors_file,
                       "Count every exploration of this file and compare with what it says")
+          ->check(empty_name)
           ->type_name("FILE");
   CLI::Option* random =
       command
-          .add_option("--random", request->seed,
-                      "Explore random planar worlds, and compare with an obvious implementation")
+          .add_option_function<std::string>(
+              "--random", [request](const std::string& text) { request->seed = seed_of(text); },
+              "Explore random planar worlds, and compare with an obvious implementation")
           ->type_name("SEED");
   on_grid->excludes(vectors)->excludes(random);
   vectors->excludes(random);
@@ -128,12 +150,70 @@ void add_search(CLI::App& command, TopologyRequest* request, GridOptions* grid) 
 void add_output(CLI::App& command, TopologyRequest* request, GridOptions* grid) {
   command.add_flag("--json", request->as_json, "Print JSON");
   const auto file = [&](const char* name, std::string* path, const char* help) {
-    grid->options.push_back(command.add_option(name, *path, help)->type_name("FILE"));
+    grid->options.push_back(
+        command.add_option(name, *path, help)->check(empty_name)->type_name("FILE"));
   };
   file("--svg", &request->svg_file, "Draw the simplest map");
   file("--dot", &request->dot_file, "The simplest map for Graphviz");
   file("--graphml", &request->graphml_file, "The simplest map as GraphML");
   file("--tree-dot", &request->tree_dot_file, "A small tree of maps for Graphviz");
+}
+
+/// No file is written over by another one of the same run. Devices may be.
+void check_files(const TopologyRequest& request) {
+  std::map<std::filesystem::path, std::string> options;
+  for (const auto& [option, file] : {std::pair("--svg", request.svg_file),
+                                     {"--dot", request.dot_file},
+                                     {"--graphml", request.graphml_file},
+                                     {"--tree-dot", request.tree_dot_file}}) {
+    std::error_code error;
+    const bool is_device =
+        std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error);
+    if (file.empty() || is_device) {
+      continue;
+    }
+    const auto [other, is_new] =
+        options.emplace(std::filesystem::weakly_canonical(std::filesystem::absolute(file)), option);
+    if (!is_new) {
+      throw Failure(ExitCode::kUsage, std::string(option) + ": " + clients::printable(file) +
+                                          " is the file of " + other->second + ", too");
+    }
+  }
+}
+
+/// What the searches cannot do, by the names of the options.
+void check_search(const TopologyRequest& request) {
+  const ExactSearchOptions& search = request.search;
+  const bool is_perpendicular = search.planar && search.perpendicular;
+  const bool counts_corners =
+      request.order == SearchOrder::kCorners || request.order == SearchOrder::kPathsWithCorners;
+  const auto refuse_if = [](bool is_wrong, const char* what) {
+    if (is_wrong) {
+      throw Failure(ExitCode::kUsage, what);
+    }
+  };
+  refuse_if(counts_corners && !is_perpendicular,
+            "--order: an order with corners needs --planar and --perpendicular");
+  refuse_if(search.max_corners && !is_perpendicular,
+            "--max-corners needs --planar and --perpendicular");
+  refuse_if(search.look_ahead_by_face && !(search.planar && search.look_ahead),
+            "--look-ahead-by-face needs --planar and --look-ahead");
+  refuse_if(request.kind == SearchKind::kBreadth &&
+                (search.perpendicular || search.look_ahead || search.max_corners ||
+                 search.straight_corridors || search.compass),
+            "--search breadth: the on-line tree cannot look ahead or assume headings or "
+            "perpendicular streets; expected --search depth or best");
+  if (!request.tree_dot_file.empty()) {
+    refuse_if(request.kind == SearchKind::kBest,
+              "--tree-dot draws whole trees, of which --search best grows a part only; expected "
+              "--search depth or breadth");
+    refuse_if(search.max_nodes > 0,
+              "--tree-dot draws whole trees, of which --max-nodes leaves out a part");
+    refuse_if(search.perpendicular || search.look_ahead || search.max_corners ||
+                  search.straight_corridors || search.compass,
+              "--tree-dot draws whole trees: of the options that drop maps, it knows --planar, "
+              "--region-axiom and --max-places");
+  }
 }
 
 /// Usage that CLI11 cannot express.
@@ -151,25 +231,18 @@ void check_use(const TopologyRequest& request, const GridOptions& grid) {
   if (grid.order->count() > 0 && request.kind != SearchKind::kBest) {
     throw Failure(ExitCode::kUsage, "--order needs --search best");
   }
-  const bool counts_corners =
-      request.order == SearchOrder::kCorners || request.order == SearchOrder::kPathsWithCorners;
-  if (counts_corners && !(request.search.planar && request.search.perpendicular)) {
-    throw Failure(ExitCode::kUsage,
-                  "--order: an order with corners needs --planar and --perpendicular");
-  }
-  const ExactSearchOptions& search = request.search;
-  if (request.seed && search.region_consistent) {
+  check_search(request);
+  check_files(request);
+  if (request.seed && request.search.region_consistent) {
     throw Failure(ExitCode::kUsage, "--region-axiom needs --grid or --vectors");
-  }
-  if (request.kind == SearchKind::kBreadth &&
-      (search.perpendicular || search.look_ahead || search.max_corners ||
-       search.straight_corridors || search.compass)) {
-    throw Failure(ExitCode::kUsage,
-                  "--search breadth: the on-line tree cannot look ahead or assume headings or "
-                  "perpendicular streets; expected --search depth or best");
   }
   if (request.grid.empty() && request.kind == SearchKind::kBest) {
     throw Failure(ExitCode::kUsage, "--search best needs --grid: it does not count all maps");
+  }
+  const std::uint64_t most_seed = std::numeric_limits<std::uint64_t>::max();
+  if (request.seed && *request.seed > most_seed - static_cast<std::uint64_t>(request.count - 1)) {
+    throw Failure(ExitCode::kUsage, "--random: with --count " + std::to_string(request.count) +
+                                        " the last seed would not fit into 64 bits");
   }
   if (request.seed && request.search.planar) {
     throw Failure(ExitCode::kUsage, "--random looks at maps with and without planarity");

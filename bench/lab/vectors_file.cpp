@@ -3,6 +3,7 @@
 #include <array>
 #include <climits>
 #include <fstream>
+#include <set>
 #include <utility>
 
 #include "bench/lab/codes.hpp"
@@ -224,6 +225,9 @@ TestVector read_vector(const Field& field, const Stars& stars) {
 
 Json parsed(const std::filesystem::path& path) {
   std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    throw Failure(ExitCode::kBadData, path.string() + ": expected a file, got a folder");
+  }
   if (!std::filesystem::is_regular_file(path, error)) {
     throw Failure(ExitCode::kBadData, path.string() + ": no such file");
   }
@@ -247,8 +251,16 @@ VectorsFile read_vectors(const std::filesystem::path& path) {
   VectorsFile file;
   try {
     const Stars stars = read_stars(root.at("stars").called("stars"), &file.names);
-    for (const Field& vector : root.at("vectors").called("vectors").items("number")) {
+    const Field vectors = root.at("vectors").called("vectors");
+    std::set<std::string> names;
+    for (const Field& vector : vectors.items("number")) {
       file.vectors.push_back(read_vector(vector, stars));
+      if (!names.insert(file.vectors.back().name).second) {
+        vector.at("name").reject("a name of its own (another one has this)");
+      }
+    }
+    if (file.vectors.empty()) {
+      vectors.reject("one exploration or more");
     }
   } catch (const Failure& failure) {
     throw Failure(failure.code(), path.string() + ": " + failure.what());

@@ -302,6 +302,11 @@ INSTANTIATE_TEST_SUITE_P(
                   file["vectors"][0]["planar"]["leaves_per_step"] = {1, 2};
                 },
                 "planar, leaves_per_step: expected a count for each of the 4 steps, got [1,2]"},
+        BadFile{"NoVectors", [](Json& file) { file["vectors"] = Json::array(); },
+                "vectors: expected one exploration or more, got []"},
+        BadFile{"SameName", [](Json& file) { file["vectors"][1] = file["vectors"][0]; },
+                "vectors, number 1, name: expected a name of its own (another one has this), got "
+                "\"square\""},
         BadFile{"AnArray", [](Json& file) { file = Json::array(); },
                 "the file: expected an object, got []"}),
     [](const auto& param) { return std::string(param.param.name); });
@@ -314,7 +319,9 @@ TEST(LabTopology, RejectsWhatIsNoJson) {
   EXPECT_EQ(ran.status, 65);
   EXPECT_THAT(ran.errors, HasSubstr("not JSON"));
   EXPECT_EQ(run({"topology", "--vectors", path + ".gone"}).status, 65);
-  EXPECT_EQ(run({"topology", "--vectors", (folder / "").string()}).status, 65);
+  const Ran on_folder = run({"topology", "--vectors", (folder / "").string()});
+  EXPECT_EQ(on_folder.status, 65);
+  EXPECT_THAT(on_folder.errors, HasSubstr("expected a file, got a folder"));
 }
 
 TEST(LabTopology, RejectsWrongCommandLines) {
@@ -350,6 +357,28 @@ TEST(LabTopology, RejectsWrongCommandLines) {
     }
     EXPECT_EQ(ran.status, 64) << "cairn-lab" << line;
     EXPECT_NE(ran.errors, "") << "cairn-lab" << line;
+  }
+}
+
+TEST(LabTopology, NamesWhatIsWrongInACommandLine) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+      {{"--random", "-1"}, "--random: expected a seed from 0 to 18446744073709551615, got '-1'"},
+      {{"--random", "18446744073709551616"}, "expected a seed from 0 to 18446744073709551615"},
+      {{"--random", "18446744073709551615", "--count", "2"}, "would not fit into 64 bits"},
+      {{"--vectors", ""}, "--vectors: expected the name of a file"},
+      {{"--grid", "2x2", "--svg", ""}, "--svg: expected the name of a file"},
+      {{"--grid", "2x2", "--svg", "a.x", "--dot", "./a.x"}, "./a.x is the file of --svg, too"},
+      {{"--grid", "2x2", "--max-corners", "4"}, "--max-corners needs --planar and --perpendicular"},
+      {{"--grid", "1x3", "--compass"}, "--compass must come with stars of four slots only"},
+      {{"--grid", "2x2", "--tree-dot", "t", "--search", "best"}, "--search best grows a part only"},
+      {{"--grid", "2x2", "--tree-dot", "t", "--max-nodes", "9"}, "--max-nodes leaves out a part"},
+  };
+  for (const auto& [options, message] : wrong) {
+    std::vector<std::string> arguments = {"topology"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Ran ran = run(arguments);
+    EXPECT_EQ(ran.status, 64) << message;
+    EXPECT_THAT(ran.errors, HasSubstr(message));
   }
 }
 
