@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdlib>
 #include <ctime>
+#include <limits>
 
 #include "clients/cairn/commands.hpp"
 #include "clients/cairn/goal.hpp"
@@ -19,6 +20,7 @@ using cairn_lcm::assert_request_t;
 using cairn_lcm::result_t;
 
 constexpr std::int32_t kMostShown = 20;
+constexpr std::size_t kMostNameBytes = 64;  ///< Of places and of people: the daemon takes no more.
 
 struct SayOptions {
   LinkOptions link;
@@ -38,8 +40,12 @@ std::string user() {
 cairn_lcm::place_ref_t place_of(const std::string& text) {
   const std::optional<cairn_lcm::place_ref_t> place = parse_place(text);
   if (!place) {
-    throw Failure(ExitCode::kUsage, "'" + printable(text) +
-                                        "' is no place: expected its number, its name, or visit:N");
+    throw Failure(ExitCode::kUsage,
+                  as_typed(text) + " is no place: expected its number, its name, or visit:N");
+  }
+  if (place->name.size() > kMostNameBytes) {
+    throw Failure(ExitCode::kUsage, as_typed(text) + " is no place: a name has at most " +
+                                        std::to_string(kMostNameBytes) + " bytes");
   }
   return *place;
 }
@@ -58,7 +64,21 @@ void print_report(std::ostream& out, const cairn_lcm::assertion_report_t& report
   }
 }
 
+void check_who(const std::string& who) {
+  const bool is_text = std::none_of(who.begin(), who.end(), [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
+  });
+  if (who.empty() || who.size() > kMostNameBytes || !is_text) {
+    throw Failure(
+        ExitCode::kUsage,
+        "--who: expected 1 to " + std::to_string(kMostNameBytes) +
+            " bytes without control characters, got " +
+            (who.size() > kMostNameBytes ? std::to_string(who.size()) + " bytes" : as_typed(who)));
+  }
+}
+
 void say(const SayOptions& options, const Streams& streams) {
+  check_who(options.who);
   assert_request_t request{};
   request.kind = options.kind;
   request.assertion = options.assertion;
@@ -155,7 +175,8 @@ void add_assertion_commands(CLI::App& app, const Streams& streams) {
   const auto options = std::make_shared<SayOptions>();
   options->kind = assert_request_t::RETRACT;
   retract->add_option("number", options->assertion, "Its number; see 'cairn assertions'")
-      ->required();
+      ->required()
+      ->check(whole_number(1, std::numeric_limits<std::int64_t>::max()));
   add_who(*retract, options.get());
   retract->callback([options, streams] { say(*options, streams); });
 

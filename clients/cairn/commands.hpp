@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <ostream>
 #include <string>
@@ -26,6 +27,12 @@ struct SourceOptions {
 void add_link_options(CLI::App& command, LinkOptions* link);
 void add_map_file(CLI::App& command, SourceOptions* options);
 void add_json_flag(CLI::App& command, bool* as_json);
+
+/// Accepts whole numbers from `low` on that fit into `high`; says what came in a few words, however
+/// long it is.
+[[nodiscard]] CLI::Validator whole_number(std::int64_t low, std::int64_t high);
+/// What a person typed, short enough for a message.
+[[nodiscard]] std::string as_typed(const std::string& text);
 
 /// The map file where one is named, otherwise the daemon.
 [[nodiscard]] std::unique_ptr<MapSource> open_source(const SourceOptions& options);

@@ -1,12 +1,14 @@
 #include "clients/cairn/program.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <exception>
 #include <new>
 
 #include "clients/cairn/commands.hpp"
 #include "clients/common/failure.hpp"
 #include "clients/common/map_file.hpp"
+#include "clients/common/text.hpp"
 
 namespace cairn::clients {
 namespace {
@@ -51,6 +53,25 @@ void add_map_file(CLI::App& command, SourceOptions* options) {
 
 void add_json_flag(CLI::App& command, bool* as_json) {
   command.add_flag("--json", *as_json, "Print JSON");
+}
+
+std::string as_typed(const std::string& text) {
+  constexpr std::size_t kMost = 40;
+  return "'" + printable(text.size() <= kMost ? text : text.substr(0, kMost - 3) + "...") + "'";
+}
+
+CLI::Validator whole_number(std::int64_t low, std::int64_t high) {
+  const auto complaint = [low, high](const std::string& text) -> std::string {
+    std::int64_t number = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error == std::errc() && stop == text.data() + text.size() && number >= low &&
+        number <= high) {
+      return "";
+    }
+    return "expected a whole number from " + std::to_string(low) + " to " + std::to_string(high) +
+           ", got " + as_typed(text);
+  };
+  return {[complaint](std::string& text) { return complaint(text); }, "", "whole_number"};
 }
 
 std::unique_ptr<MapSource> open_source(const SourceOptions& options) {

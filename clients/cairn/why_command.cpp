@@ -1,6 +1,7 @@
 // Why the best map is what it is, and why others are not.
 
 #include <algorithm>
+#include <limits>
 
 #include "clients/cairn/commands.hpp"
 #include "clients/cairn/goal.hpp"
@@ -15,6 +16,8 @@ using cairn_lcm::explain_request_t;
 using cairn_lcm::explained_step_t;
 using cairn_lcm::explanation_t;
 using cairn_lcm::result_t;
+
+constexpr std::int64_t kMostVisits = std::numeric_limits<std::int32_t>::max();
 
 struct WhyOptions {
   LinkOptions link;
@@ -168,7 +171,7 @@ void add_why_command(CLI::App& app, const Streams& streams) {
       "what decided");
   const auto options = std::make_shared<WhyOptions>();
   CLI::Option* const visit = command->add_option("visit", options->visit, "Number of a visit")
-                                 ->check(CLI::NonNegativeNumber);
+                                 ->check(whole_number(0, kMostVisits));
   CLI::Option* const place =
       command->add_option("--place", options->place, "All visits to this place, number or name")
           ->excludes(visit);
@@ -176,6 +179,7 @@ void add_why_command(CLI::App& app, const Streams& streams) {
       ->add_option("--hypotheses", options->hypotheses,
                    "Two of 'cairn hypotheses': where they part, and what speaks for each")
       ->expected(2)
+      ->check(whole_number(0, std::numeric_limits<std::int64_t>::max()))
       ->excludes(visit)
       ->excludes(place);
   add_json_flag(*command, &options->as_json);

@@ -67,9 +67,10 @@ Result<OperatorOrder> order_of(const assert_request_t& request,
   order.request_id = request.header.request_id;
   if (request.kind == assert_request_t::RETRACT) {
     order.kind = OperatorOrder::Kind::kRetract;
-    const bool fits =
-        request.assertion >= 0 && request.assertion <= std::numeric_limits<std::int32_t>::max();
-    order.assertion = fits ? static_cast<int>(request.assertion) : -1;
+    if (request.assertion < 0 || request.assertion > std::numeric_limits<std::int32_t>::max()) {
+      return Error{ErrorCode::kNotFound, "there is no assertion " + text_of(request.assertion)};
+    }
+    order.assertion = static_cast<int>(request.assertion);
     return order;
   }
   if (request.kind != assert_request_t::SAME && request.kind != assert_request_t::DIFFERENT) {

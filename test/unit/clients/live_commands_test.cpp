@@ -140,6 +140,27 @@ TEST_F(LiveCommands, AnAssertionSaysWhatChanged) {
   EXPECT_THAT(run({"retract", "3"}).out, HasSubstr("assertion 3 taken back"));
 }
 
+TEST_F(LiveCommands, WhatIsTypedWrongIsSaidInAFewWords) {
+  const std::string huge(309, '9');
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+      {{"why", "-1"}, "expected a whole number from 0 to 2147483647, got '-1'"},
+      {{"why", "abc"}, "expected a whole number from 0 to 2147483647, got 'abc'"},
+      {{"why", huge}, "expected a whole number from 0 to 2147483647, got '999"},
+      {{"why", "--hypotheses", "3", "x"}, "expected a whole number from 0"},
+      {{"retract", "0"}, "expected a whole number from 1"},
+      {{"retract", huge}, "expected a whole number from 1"},
+      {{"same", "1", "2", "--who", std::string(100'000, 'a')}, "--who: expected 1 to 64 bytes"},
+      {{"same", "1", "2", "--who", "a\nb"}, "--who: expected 1 to 64 bytes"},
+      {{"same", "1", std::string(100'000, 'a')}, "is no place: a name has at most 64 bytes"},
+  };
+  for (const auto& [arguments, message] : wrong) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 64) << message;
+    EXPECT_THAT(outcome.err, HasSubstr(message));
+    EXPECT_LT(outcome.err.size(), 250U);
+  }
+}
+
 TEST_F(LiveCommands, TheAuditTellsWhoSaidWhatAndWhen) {
   const Outcome audit = run({"assertions"});
   EXPECT_EQ(audit.status, 0) << audit.err;

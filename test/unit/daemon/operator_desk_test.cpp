@@ -179,7 +179,9 @@ TEST_F(OperatorDeskTest, WhatCannotBeSaidChangesNothing) {
   EXPECT_EQ(say(assert_request_t::SAME, named("attic"), place(0)).result.code, result_t::NOT_FOUND);
   EXPECT_EQ(say(17, visit(0), visit(1)).result.code, result_t::BAD_REQUEST);
   EXPECT_EQ(retract(2).result.code, result_t::NOT_FOUND);
-  EXPECT_EQ(retract(std::int64_t{1} << 40).result.code, result_t::NOT_FOUND);
+  const assertion_report_t far = retract(99'999'999'999);
+  EXPECT_EQ(far.result.code, result_t::NOT_FOUND);
+  EXPECT_EQ(far.result.reason, "there is no assertion 99999999999");
 
   EXPECT_EQ(places(), before);
   EXPECT_EQ(engine_->service().state()->assertions.size(), 1U);
