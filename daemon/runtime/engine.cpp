@@ -99,6 +99,9 @@ Result<AssertionReport> Engine::take(const OperatorOrder& order) {
   if (const Status status = check(order); !status) {
     return status.error();
   }
+  if (std::optional<AssertionReport> report = said_already(order)) {
+    return *std::move(report);
+  }
   commit();
   if (!journal_trouble_.empty()) {
     return Error{ErrorCode::kUnavailable, "the map file cannot be written: " + journal_trouble_};
@@ -107,7 +110,33 @@ Result<AssertionReport> Engine::take(const OperatorOrder& order) {
     map_file_.roll_back();
     return status.error();
   }
-  return carry_out(order);
+  Result<AssertionReport> report = carry_out(order);
+  store_map();
+  return report;
+}
+
+std::optional<AssertionReport> Engine::said_already(const OperatorOrder& order) const {
+  const bool is_same = order.kind == OperatorOrder::Kind::kSame;
+  const HypothesisTree& tree = service_->tree();
+  for (const OperatorAssertion& one : tree.assertions()) {
+    const bool is_about_both = std::minmax(one.a, one.b) == std::minmax(order.a, order.b);
+    if (order.kind != OperatorOrder::Kind::kRetract && !one.retracted_after_visits &&
+        is_about_both && one.is_same == is_same) {
+      AssertionReport report;
+      report.assertion = one.number;
+      const Hypothesis best = tree.best();
+      report.best = best.id;
+      report.log_posterior_before = report.log_posterior_after = best.log_posterior();
+      report.sentence = "it is in force already, said by " + one.who + "; nothing changes";
+      return report;
+    }
+  }
+  return std::nullopt;
+}
+
+/// So that the map file does not show the map from before an operator spoke. The drawing follows.
+void Engine::store_map() {
+  store(documents_without_drawing(*service_->state(), {0, map_id()}));
 }
 
 Status Engine::check(const OperatorOrder& order) const {

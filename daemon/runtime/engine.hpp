@@ -41,7 +41,9 @@ class Engine {
 
   /// Carries out what an operator asks for, on the disk first; an order that was carried out
   /// before, even by an earlier process, is answered alike and does nothing. Errors as of
-  /// MappingService::assert_places and retract; kInvalidValue for a name of nobody.
+  /// MappingService::assert_places and retract; kInvalidValue for a name of nobody. What is said
+  /// already is answered with the assertion in force, and nothing is made of it. The map file then
+  /// holds the new map for whoever reads it, but for the drawing.
   Result<AssertionReport> take(const OperatorOrder& order);
 
   /// Puts on the disk what is not there yet.
@@ -64,6 +66,8 @@ class Engine {
   Status recall();
   [[nodiscard]] Status check(const OperatorOrder& order) const;
   Result<AssertionReport> carry_out(const OperatorOrder& order);
+  [[nodiscard]] std::optional<AssertionReport> said_already(const OperatorOrder& order) const;
+  void store_map();
   void journal(const Updates& updates);
   void write_waiting(bool commit);
   void bound_waiting();

@@ -27,6 +27,16 @@ std::vector<PosedScan> scans_worth_drawing(const std::vector<PosedScan>& traject
   return worth;
 }
 
+Documents documents_without_drawing(const MapState& state, const Sender& sender) {
+  using What = cairn_lcm::snapshot_request_t;
+  Documents documents;
+  documents.revision = state.topology_revision;
+  documents.bytes[What::TOPOLOGY] = wire::to_document(to_topology(state, sender));
+  documents.bytes[What::HYPOTHESES] = wire::to_document(to_hypotheses(state, sender));
+  documents.bytes[What::TRAJECTORY] = wire::to_document(to_trajectory(state, sender));
+  return documents;
+}
+
 MapMaker::MapMaker(const GlobalMapOptions& options) : map_(options) {
   grid_.cell_m = options.cell_m;
   grid_.tile_cells = options.tile_cells;
@@ -49,12 +59,8 @@ std::map<wire::TileIndex, wire::TileCells> MapMaker::draw(const MapState& state)
 Documents MapMaker::documents(const MapState& state, const Sender& sender) {
   using What = cairn_lcm::snapshot_request_t;
   grid_.map_id = sender.map_id;
-  Documents documents;
-  documents.revision = state.topology_revision;
+  Documents documents = documents_without_drawing(state, sender);
   documents.bytes[What::GLOBAL_MAP] = wire::to_document(wire::to_message(grid_));
-  documents.bytes[What::TOPOLOGY] = wire::to_document(to_topology(state, sender));
-  documents.bytes[What::HYPOTHESES] = wire::to_document(to_hypotheses(state, sender));
-  documents.bytes[What::TRAJECTORY] = wire::to_document(to_trajectory(state, sender));
   return documents;
 }
 

@@ -18,6 +18,9 @@ struct Documents {
   std::map<int, std::vector<std::uint8_t>> bytes;
 };
 
+/// The documents that need no drawing: topology, hypotheses, trajectory.
+[[nodiscard]] Documents documents_without_drawing(const MapState& state, const Sender& sender);
+
 /// Draws the global map from immutable pictures of the map, and makes the documents that clients
 /// and the map file get. One owner: the solver thread, or a replay.
 class MapMaker {

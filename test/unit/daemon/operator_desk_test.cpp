@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "clients/common/map_file.hpp"
 #include "runtime/engine.hpp"
 #include "support/experience.hpp"
 #include "support/files.hpp"
@@ -161,6 +162,37 @@ TEST_F(OperatorDeskTest, ARepeatedRequestIsCarriedOutOnceEvenAfterARestart) {
     EXPECT_EQ(engine_->service().state()->assertions.size(), 1U);
     open();
   }
+}
+
+TEST_F(OperatorDeskTest, WhatIsInForceIsNotSaidAgain) {
+  open();
+  ASSERT_EQ(say(assert_request_t::DIFFERENT, visit(0), visit(4)).result.code, result_t::OK);
+  const std::int64_t revision = engine_->service().revision();
+  for (const auto& [a, b] : {std::pair(0, 4), std::pair(4, 0)}) {
+    const assertion_report_t again = say(assert_request_t::DIFFERENT, visit(a), visit(b));
+    EXPECT_EQ(again.result.code, result_t::OK);
+    EXPECT_EQ(again.assertion, 1);
+    EXPECT_EQ(again.num_moved, 0);
+    EXPECT_THAT(again.sentence, HasSubstr("in force already, said by alice"));
+  }
+  EXPECT_EQ(engine_->service().revision(), revision);
+  open();
+  EXPECT_EQ(engine_->service().state()->assertions.size(), 1U);
+  ASSERT_EQ(retract(1).result.code, result_t::OK);
+  EXPECT_EQ(say(assert_request_t::DIFFERENT, visit(0), visit(4)).assertion, 2);
+}
+
+TEST_F(OperatorDeskTest, TheMapFileShowsWhatWasSaidEvenIfTheDaemonIsKilled) {
+  open();
+  const bool is_one_place = places()[0] == places()[4];
+  say(is_one_place ? std::int32_t{assert_request_t::DIFFERENT} : assert_request_t::SAME, visit(0),
+      visit(4));
+  // Read beside the open engine, which is what a crash leaves.
+  clients::MapFile file(path());
+  EXPECT_EQ(file.topology().revision, engine_->service().revision());
+  EXPECT_EQ(file.topology().num_places,
+            static_cast<int>(engine_->service().state()->places.size()));
+  EXPECT_EQ(file.hypotheses().revision, engine_->service().revision());
 }
 
 TEST_F(OperatorDeskTest, WhatCannotBeSaidChangesNothing) {
