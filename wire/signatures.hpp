@@ -65,7 +65,7 @@ namespace cairn::wire {
 #define CAIRN_STEP "q q q s i s q i q i d i q d s"
 #define CAIRN_GATEWAY "d d d d i q"
 #define CAIRN_PLACE "q s d d d d[=9] s i i {" CAIRN_GATEWAY "}[8]"
-#define CAIRN_SEGMENT "q i q i i d d d d d[=9]"
+#define CAIRN_SEGMENT "q i q i i i d d d d d[=9]"
 #define CAIRN_TILE "i i i b[2]"
 #define CAIRN_SIGNATURE(type, text) \
   template <>                       \

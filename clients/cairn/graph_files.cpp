@@ -31,7 +31,7 @@ struct Attribute {
   const char* of;
   const char* type;
 };
-constexpr std::array<Attribute, 13> kAttributes{{{"name", "node", "string"},
+constexpr std::array<Attribute, 14> kAttributes{{{"name", "node", "string"},
                                                  {"x_m", "node", "double"},
                                                  {"y_m", "node", "double"},
                                                  {"theta_rad", "node", "double"},
@@ -43,7 +43,8 @@ constexpr std::array<Attribute, 13> kAttributes{{{"name", "node", "string"},
                                                  {"to_gateway", "edge", "int"},
                                                  {"path_id", "edge", "long"},
                                                  {"length_m", "edge", "double"},
-                                                 {"num_travels", "edge", "int"}}};
+                                                 {"num_travels", "edge", "int"},
+                                                 {"is_broken", "edge", "boolean"}}};
 
 std::string datum(const char* key, const std::string& value) {
   return "      <data key=\"" + std::string(key) + "\">" + xml_escaped(value) + "</data>\n";
@@ -65,7 +66,8 @@ std::string edge(const cairn_lcm::topology_t& topology, const cairn_lcm::segment
          datum("to_gateway", std::to_string(segment.to_gateway)) +
          datum("path_id", std::to_string(path_of(topology, segment))) +
          datum("length_m", fixed(segment.length_m, 6)) +
-         datum("num_travels", std::to_string(segment.num_travels)) + "    </edge>\n";
+         datum("num_travels", std::to_string(segment.num_travels)) +
+         datum("is_broken", segment.is_broken != 0 ? "true" : "false") + "    </edge>\n";
 }
 
 // An edge to a place that is not listed would make a file that no reader takes.
@@ -90,7 +92,8 @@ std::string topology_dot(const cairn_lcm::topology_t& topology) {
     if (has_both_ends(topology, segment)) {
       dot << "  " << segment.from_place << " -- " << segment.to_place << " [taillabel=\""
           << segment.from_gateway << "\", headlabel=\"" << segment.to_gateway << "\", label=\""
-          << fixed(segment.length_m, 1) << " m\"];\n";
+          << fixed(segment.length_m, 1)
+          << (segment.is_broken != 0 ? " m, broken\", style=dashed" : " m\"") << "];\n";
     }
   }
   dot << "}\n";

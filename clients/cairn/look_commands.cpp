@@ -139,7 +139,9 @@ void add_status_command(CLI::App& app, const Streams& streams) {
 
 void add_places_command(CLI::App& app, const Streams& streams) {
   CLI::App* command = app.add_subcommand(
-      "places", "The places of the best map; gateways as number>place, or number? if pending");
+      "places",
+      "The places of the best map; gateways as number>place, number? if pending, or number!place "
+      "where the robot came to a place against the map");
   const auto options = add_source_options(*command);
   command->callback([options, streams] {
     const cairn_lcm::topology_t topology = open_source(*options)->topology();

@@ -98,7 +98,9 @@ void draw_segments(Canvas& canvas, const Viewport& view, const cairn_lcm::topolo
       course.push_back(view.pixel(point.x_m, point.y_m));
     }
     const Colour colour = path_colour(path_of(topology, segment));
-    canvas.polyline(course, {.colour = colour, .width_pixels = 3.5});
+    canvas.polyline(
+        course,
+        {.colour = colour, .width_pixels = 3.5, .dash_pixels = segment.is_broken != 0 ? 6.0 : 0.0});
   }
 }
 

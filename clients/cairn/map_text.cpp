@@ -10,26 +10,30 @@ namespace {
 
 using Gateway = std::pair<std::int64_t, std::int32_t>;  // Place, number of the gateway.
 
-std::map<Gateway, std::int64_t> neighbours_of(const cairn_lcm::topology_t& topology) {
-  std::map<Gateway, std::int64_t> neighbours;
-  for (const cairn_lcm::segment_t& segment : topology.segments) {
-    neighbours[{segment.from_place, segment.from_gateway}] = segment.to_place;
-    neighbours[{segment.to_place, segment.to_gateway}] = segment.from_place;
+/// By gateway, where it leads: ">3" by a link, "!4" by a travel that the map does not explain.
+std::map<Gateway, std::string> leads_of(const cairn_lcm::topology_t& topology) {
+  std::map<Gateway, std::string> leads;
+  for (const bool is_broken : {false, true}) {
+    for (const cairn_lcm::segment_t& segment : topology.segments) {
+      if ((segment.is_broken != 0) == is_broken) {
+        const char* const sign = is_broken ? "!" : ">";
+        leads[{segment.from_place, segment.from_gateway}] +=
+            sign + std::to_string(segment.to_place);
+        leads[{segment.to_place, segment.to_gateway}] += sign + std::to_string(segment.from_place);
+      }
+    }
   }
-  return neighbours;
+  return leads;
 }
 
 std::string gateways_text(const cairn_lcm::place_t& place,
-                          const std::map<Gateway, std::int64_t>& neighbours) {
+                          const std::map<Gateway, std::string>& leads) {
   std::string text;
   for (std::size_t i = 0; i < place.gateways.size(); ++i) {
     text += (i == 0 ? "" : " ") + std::to_string(i);
-    const auto neighbour = neighbours.find({place.id, static_cast<std::int32_t>(i)});
-    if (place.gateways[i].is_pending != 0) {
-      text += "?";
-    } else if (neighbour != neighbours.end()) {
-      text += ">" + std::to_string(neighbour->second);
-    }
+    const auto lead = leads.find({place.id, static_cast<std::int32_t>(i)});
+    text += place.gateways[i].is_pending != 0 ? "?" : "";
+    text += lead != leads.end() ? lead->second : "";
   }
   return text;
 }
@@ -100,13 +104,13 @@ void print_status(std::ostream& out, const cairn_lcm::status_t& status) {
 }
 
 void print_places(std::ostream& out, const cairn_lcm::topology_t& topology) {
-  const std::map<Gateway, std::int64_t> neighbours = neighbours_of(topology);
+  const std::map<Gateway, std::string> leads = leads_of(topology);
   Table table({"id", "name", "x_m", "y_m", "heading_deg", "visits", "gateways", "star"});
   for (const cairn_lcm::place_t& place : topology.places) {
     table.add({std::to_string(place.id) + (place.id == topology.at_place ? "*" : ""),
                place.name.empty() ? "-" : printable(place.name), fixed(place.x_m, 2),
                fixed(place.y_m, 2), degrees(place.theta_rad), std::to_string(place.num_visits),
-               gateways_text(place, neighbours), printable(place.star)});
+               gateways_text(place, leads), printable(place.star)});
   }
   table.print(out);
 }

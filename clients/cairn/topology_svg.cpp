@@ -53,10 +53,12 @@ std::string segment_svg(const Viewport& view,
   }
   const std::int64_t path = path_of(topology, segment);
   return "  <polyline points=\"" + points + "\" fill=\"none\" stroke=\"" + hex(path_colour(path)) +
-         "\" stroke-width=\"4\" stroke-linejoin=\"round\"><title>path " + std::to_string(path) +
-         ": place " + std::to_string(segment.from_place) + " gateway " +
-         std::to_string(segment.from_gateway) + " to place " + std::to_string(segment.to_place) +
-         " gateway " + std::to_string(segment.to_gateway) + ", " + fixed(segment.length_m, 1) +
+         "\" stroke-width=\"4\" stroke-linejoin=\"round\"" +
+         (segment.is_broken != 0 ? " stroke-dasharray=\"6 5\"" : "") + "><title>" +
+         (segment.is_broken != 0 ? "broken, " : "") + "path " + std::to_string(path) + ": place " +
+         std::to_string(segment.from_place) + " gateway " + std::to_string(segment.from_gateway) +
+         " to place " + std::to_string(segment.to_place) + " gateway " +
+         std::to_string(segment.to_gateway) + ", " + fixed(segment.length_m, 1) +
          " m</title></polyline>\n";
 }
 

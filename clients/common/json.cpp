@@ -53,6 +53,7 @@ Json to_json(const cairn_lcm::segment_t& segment) {
           {"to_place", segment.to_place},
           {"to_gateway", segment.to_gateway},
           {"num_travels", segment.num_travels},
+          {"is_broken", segment.is_broken != 0},
           {"length_m", number(segment.length_m)},
           {"dx_m", number(segment.dx_m)},
           {"dy_m", number(segment.dy_m)},

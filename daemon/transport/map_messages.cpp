@@ -51,6 +51,7 @@ cairn_lcm::segment_t to_segment(const MappedSegment& segment) {
   message.to_place = segment.to_place;
   message.to_gateway = segment.to_gateway;
   message.num_travels = segment.travel_count;
+  message.is_broken = segment.is_broken ? 1 : 0;
   message.length_m = segment.length_m;
   message.dx_m = segment.T_from_to.mean.x();
   message.dy_m = segment.T_from_to.mean.y();

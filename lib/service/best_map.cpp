@@ -211,6 +211,7 @@ std::vector<MappedSegment> mapped_segments(const TopologicalMap& map,
       segment.from_gateway = from.gateway;
       segment.to_place = to.place.value;
       segment.to_gateway = to.gateway;
+      segment.is_broken = map.linked_to(from) != to;
       segment.first_scan = experience.visits()[static_cast<std::size_t>(v)].anchor_scan;
       segment.last_scan = experience.visits()[static_cast<std::size_t>(v) + 1].anchor_scan;
       const Matrix3d covariance =

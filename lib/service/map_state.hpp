@@ -39,12 +39,14 @@ struct MappedPlace {
   std::vector<MappedGateway> gateways;  ///< Clockwise.
 };
 
-/// A path segment of the best map: leaving one place by a gateway leads to another.
+/// A path segment of the best map: leaving one place by a gateway leads to another. Or a travel
+/// that the map leaves unexplained.
 struct MappedSegment {
   int from_place = -1;
   int from_gateway = -1;
   int to_place = -1;
   int to_gateway = -1;
+  bool is_broken = false;  ///< Travelled, but the map has no link there.
   int travel_count = 0;
   double length_m = 0.0;  ///< Of the shortest travel.
   GaussianPose T_from_to;

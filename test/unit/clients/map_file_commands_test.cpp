@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sqlite3.h>
 
+#include "clients/cairn/map_text.hpp"
 #include "clients/cairn/program.hpp"
 #include "unit/clients/sample_map.hpp"
 
@@ -53,6 +54,21 @@ TEST_F(MapFileCommands, PlacesAreListedWithWhereTheirGatewaysLead) {
   EXPECT_THAT(places.out, HasSubstr("B\xC3\xBCro & Lab"));
   EXPECT_THAT(places.out, HasSubstr("5*"));
   EXPECT_THAT(places.err, IsEmpty());
+}
+
+TEST_F(MapFileCommands, ATravelAgainstTheMapIsNoLink) {
+  cairn_lcm::topology_t topology = sample_topology();
+  topology.segments.push_back(topology.segments[2]);
+  topology.segments.back().to_place = 1;
+  topology.segments.back().to_gateway = 1;
+  topology.segments.back().is_broken = 1;
+  topology.num_segments = 6;
+
+  std::ostringstream out;
+  print_places(out, topology);
+
+  EXPECT_THAT(out.str(), HasSubstr("0>2 1>4!1"));
+  EXPECT_THAT(out.str(), HasSubstr("0>4 1>2!3"));
 }
 
 TEST_F(MapFileCommands, JsonOfPlacesIsTheTopologyMessage) {

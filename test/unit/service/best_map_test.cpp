@@ -22,6 +22,34 @@ TEST(DepartureGateway, IsTheOneThatPointsToTheNextPlaceWhereNoneWasCrossed) {
   EXPECT_EQ(departure_gateway(visit, corner_at({0, -9})), 1);
 }
 
+// Round a triangle of corners, and then to a fourth place where the second one should be.
+TEST(MappedSegments, ATravelAgainstTheMapIsBroken) {
+  Experience experience;
+  std::vector<TravelConstraint> constraints(4);
+  PlaceLayout layout;
+  for (int i = 0; i < 5; ++i) {
+    const Vector2d at(i == 3 ? 0.0 : 10.0 * i, 0.0);
+    experience.add(scan_at(i, Pose2(at, 0.0), Pose2(5.0, 0.0, 0.0)));
+    experience.add(Visit{corner_at(at), static_cast<std::size_t>(i)});
+    layout.T_global_place.emplace_back(at, 0.0);
+  }
+  const auto stars = std::make_shared<StarCatalogue>();
+  const StarId corner = stars->add(corner_at({0, 0}).neighbourhood.star);
+  TopologicalMap map(stars, {corner, 0, VisitId{0}});
+  map.add_place({PlaceId{0}, 1}, {corner, 0, VisitId{1}});
+  map.add_place({PlaceId{1}, 1}, {corner, 0, VisitId{2}});
+  map.close({PlaceId{2}, 1}, {PlaceId{0}, 0}, {corner, 0, VisitId{3}});
+  map.add_contradicting_place({PlaceId{0}, 1}, {corner, 0, VisitId{4}});
+
+  const std::vector<MappedSegment> segments = mapped_segments(map, experience, layout, constraints);
+
+  ASSERT_THAT(segments, SizeIs(4));
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(segments[i].is_broken, i == 3) << i;
+  }
+  EXPECT_EQ(segments[3].to_place, 3);
+}
+
 TEST(PosesBetween, FollowOdometryAndEndAtTheScans) {
   std::vector<PerceivedScan> scans = {scan_at(0, Pose2(), Pose2()),
                                       scan_at(1, Pose2(1.1, 0, 0), Pose2(1.1, 0, 0))};

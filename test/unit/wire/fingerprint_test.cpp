@@ -45,13 +45,13 @@ TEST(Fingerprints, AreWhatTheyWere) {
       CAIRN_GOLDEN(cairn_lcm::pose_t, 0x99a81d002d846c9b),
       CAIRN_GOLDEN(cairn_lcm::result_t, 0x859f913621bdc739),
       CAIRN_GOLDEN(cairn_lcm::rpc_header_t, 0x835f8bae3c230091),
-      CAIRN_GOLDEN(cairn_lcm::segment_t, 0x2a73f2943bf28b82),
+      CAIRN_GOLDEN(cairn_lcm::segment_t, 0xd7a39092131bb770),
       CAIRN_GOLDEN(cairn_lcm::snapshot_chunk_t, 0xb25d9c966c0de137),
       CAIRN_GOLDEN(cairn_lcm::snapshot_request_t, 0xab58f68426f09869),
       CAIRN_GOLDEN(cairn_lcm::sonar_ring_t, 0x2e090798c624ed21),
       CAIRN_GOLDEN(cairn_lcm::status_t, 0x699a087b9ac34067),
       CAIRN_GOLDEN(cairn_lcm::tile_t, 0xb87e5a344b6a8dfb),
-      CAIRN_GOLDEN(cairn_lcm::topology_t, 0x7c7d674b3fdf22c0),
+      CAIRN_GOLDEN(cairn_lcm::topology_t, 0xd6dca346ee317a9d),
       CAIRN_GOLDEN(cairn_lcm::trajectory_t, 0x6fb8b1443a8c148f),
   };
   for (const Golden& type : all) {
