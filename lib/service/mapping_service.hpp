@@ -32,8 +32,8 @@ enum class Stage { kJoining, kLocalMapping, kPlaces, kTopology, kLayout, kIdle }
 /// Told when a stage begins; kIdle when the call ends. The library itself reads no clock.
 using StageObserver = std::function<void(Stage)>;
 
-/// The whole pipeline from readings to the map. The page on which the data's way reads straight
-/// through; the daemon feeds and drains it, live or from a log, by the same calls.
+/// The whole pipeline from readings to the map; pipeline.cpp is the page on which the data's way
+/// reads straight through. The daemon feeds and drains it, live or from a log, by the same calls.
 ///
 /// Pure: no clock, no thread, no file. The same inputs give the same outputs, bit for bit, and the
 /// journal of its updates, recalled, gives the same map.

@@ -1,0 +1,186 @@
+// The data's way, from scans and odometry to visits.
+
+#include "service/pipeline.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "base/check.hpp"
+
+namespace cairn {
+namespace {
+
+Action action_between(const PlaceVisit& from, const PlaceVisit& to) {
+  const int gateways = static_cast<int>(from.neighbourhood.gateways.size());
+  const int arrival = std::max(from.arrival_gateway, 0);
+  return {(departure_gateway(from, to) - arrival + gateways) % gateways};
+}
+
+/// Ways to extend a hypothesis that this arrival has ruled out.
+std::int64_t refuted_by(const ExtendReport& report) {
+  return std::accumulate(report.refuted.begin(), report.refuted.end(), std::int64_t{0}) -
+         report.count(Refutation::kTooManyPlaces);
+}
+
+}  // namespace
+
+MappingService::Pipeline::Pipeline(const ServiceOptions& options, StageObserver observer)
+    : options_(options),
+      observer_(std::move(observer)),
+      joiner_(options.joiner),
+      local_mapper_(options.lpm),
+      place_detector_(options.place),
+      matcher_(experience_, options.recognition),
+      tree_(options.topology, evidence()) {}
+
+void MappingService::Pipeline::join(const OdometrySample& sample) {
+  joiner_.add(sample);
+  between_scans_.add(sample);
+}
+
+Updates MappingService::Pipeline::perceive_joined() {
+  Updates updates;
+  enter(Stage::kJoining);
+  while (std::optional<JoinedScan> joined = joiner_.next()) {
+    enter(Stage::kLocalMapping);
+    const LocalFix fix = local_mapper_.absorb(*joined);
+    std::vector<OdometrySample> between =
+        between_scans_.take(joined->scan.time, joined->T_odom_robot);
+    PerceivedScan perceived{std::make_shared<const LaserScan>(std::move(joined->scan)), fix,
+                            joined->T_odom_robot, std::move(between)};
+    since_anchor_ = compounded(since_anchor_, fix.motion);
+    experience_.add(perceived);
+    updates.scans.push_back(std::move(perceived));
+    detect_places(fix, &updates);
+    enter(Stage::kJoining);
+  }
+  enter(Stage::kIdle);
+  return updates;
+}
+
+void MappingService::Pipeline::close_open_visits(Updates* updates) {
+  if (experience_.scans().empty()) {
+    return;
+  }
+  for (PlaceVisit& visit : place_detector_.finish()) {
+    take_up(experience_.anchored(std::move(visit)), updates);
+  }
+  enter(Stage::kIdle);
+}
+
+void MappingService::Pipeline::recall(PerceivedScan scan) {
+  since_anchor_ = compounded(since_anchor_, scan.fix.motion);
+  experience_.add(std::move(scan));
+}
+
+Status MappingService::Pipeline::recall(Visit visit) {
+  const std::size_t earliest =
+      experience_.visits().empty() ? 0 : experience_.visits().back().anchor_scan;
+  if (visit.anchor_scan < earliest || visit.anchor_scan >= experience_.scans().size()) {
+    return Error{ErrorCode::kInvalidValue,
+                 "visit " + std::to_string(experience_.visits().size()) + " is anchored at scan " +
+                     std::to_string(visit.anchor_scan) + ", expected one in [" +
+                     std::to_string(earliest) + ", " + std::to_string(experience_.scans().size()) +
+                     ")"};
+  }
+  Updates unused;
+  take_up(std::move(visit), &unused);
+  return {};
+}
+
+Updates MappingService::Pipeline::resume() {
+  Updates updates;
+  const std::vector<PerceivedScan>& scans = experience_.scans();
+  if (scans.empty()) {
+    return updates;
+  }
+  resumed_ = true;
+  // The local map is made anew from the scans that it would still hold; the detector looks on from
+  // the last visit's anchor, as it emits a visit only after the robot has reached the next place.
+  const std::size_t looks_from =
+      experience_.visits().empty() ? 0 : experience_.visits().back().anchor_scan;
+  std::size_t first = looks_from;
+  double travel_m = 0.0;
+  while (first > 0 && travel_m < options_.lpm.map.memory_travel_m) {
+    travel_m += scans[first].fix.motion.mean.translation().norm();
+    --first;
+  }
+  for (std::size_t i = first; i < scans.size(); ++i) {
+    local_mapper_.restore(*scans[i].scan, scans[i].fix.T_lpm_robot, scans[i].T_odom_robot);
+    if (i >= looks_from) {
+      detect_places(scans[i].fix, &updates);
+    }
+  }
+  return updates;
+}
+
+void MappingService::Pipeline::detect_places(const LocalFix& fix, Updates* updates) {
+  enter(Stage::kPlaces);
+  for (PlaceEvent& event :
+       place_detector_.observe(fix.time, fix.T_lpm_robot, local_mapper_.grid())) {
+    if (event.visit) {
+      take_up(experience_.anchored(*event.visit), updates);
+    }
+    updates->events.push_back(std::move(event));
+  }
+}
+
+void MappingService::Pipeline::take_up(Visit visit, Updates* updates) {
+  if (visit.perceived.neighbourhood.gateways.empty() || is_known(visit.perceived)) {
+    return;
+  }
+  const VisitId id{static_cast<int>(experience_.visits().size())};
+  const View view{visit.perceived.neighbourhood.star, std::max(visit.perceived.arrival_gateway, 0),
+                  id};
+  if (!validate(view)) {
+    ++refused_visits_;  // A star beyond what the tree takes up; a later visit may see it better.
+    return;
+  }
+  resumed_ = false;
+  enter(Stage::kTopology);
+  experience_.add(visit);
+  grow(view, updates);
+  ++revision_;
+  enter(Stage::kLayout);
+  lay_out();
+  enter(Stage::kPlaces);
+  updates->visits.push_back(std::move(visit));
+  updates->is_map_changed = true;
+}
+
+void MappingService::Pipeline::grow(const View& view, Updates* updates) {
+  const std::vector<Visit>& visits = experience_.visits();
+  if (!tree_.is_started()) {
+    CAIRN_CHECK(tree_.start(view).ok());
+  } else {
+    const Action action = action_between(visits[view.visit.index() - 1].perceived,
+                                         visits[view.visit.index()].perceived);
+    Result<ExtendReport> report = tree_.extend(action, view);
+    CAIRN_CHECK(report.ok());
+    refuted_ += refuted_by(*report);
+    if (report->repair) {
+      blamed_ = to_text(report->repair->blamed);
+    }
+    updates->extensions.push_back(*std::move(report));
+  }
+}
+
+bool MappingService::Pipeline::is_known(const PlaceVisit& visit) const {
+  if (experience_.visits().empty()) {
+    return false;
+  }
+  const PlaceVisit& last = experience_.visits().back().perceived;
+  const bool is_at_its_spot =
+      (visit.T_lpm_place.translation() - last.T_lpm_place.translation()).norm() <
+      std::max(options_.place.same_spot_m, 0.5 * last.neighbourhood.radius_m);
+  return is_at_its_spot && (resumed_ || last.departure_gateway < 0);
+}
+
+void MappingService::Pipeline::enter(Stage stage) const {
+  if (observer_) {
+    observer_(stage);
+  }
+}
+
+}  // namespace cairn

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "lpm/local_mapper.hpp"
+#include "place/place_detector.hpp"
+#include "sensing/scan_joiner.hpp"
+#include "service/best_map.hpp"
+#include "service/between_scans.hpp"
+#include "service/mapping_service.hpp"
+#include "service/visit_matcher.hpp"
+
+namespace cairn {
+
+/// The stages of a MappingService and what flows between them. Its functions are those of the
+/// service.
+class MappingService::Pipeline {
+ public:
+  Pipeline(const ServiceOptions& options, StageObserver observer);
+  Pipeline(const Pipeline&) = delete;  // The tree's evidence points here.
+  Pipeline& operator=(const Pipeline&) = delete;
+
+  void join(const OdometrySample& sample);
+  void join(LaserScan scan) { joiner_.add(std::move(scan)); }
+  void flush() { joiner_.flush(); }
+  /// The data's way: scan and odometry → pose in the local map → place → experience → hypotheses →
+  /// layout and trajectory.
+  Updates perceive_joined();
+  void close_open_visits(Updates* updates);
+
+  void recall(PerceivedScan scan);
+  Status recall(Visit visit);
+  Updates resume();
+
+  void name_place_of(VisitId visit, const std::string& name);
+  Result<AssertionReport> assert_places(VisitId a, VisitId b, bool is_same, const Operator& by);
+  Result<AssertionReport> retract(int assertion, const Operator& by);
+  [[nodiscard]] std::optional<VisitId> first_visit(int place) const;
+
+  [[nodiscard]] std::shared_ptr<const MapState> state() const;
+  [[nodiscard]] std::int64_t revision() const { return revision_; }
+  [[nodiscard]] const Experience& experience() const { return experience_; }
+  [[nodiscard]] const HypothesisTree& tree() const { return tree_; }
+  [[nodiscard]] const OccupancyGrid& local_map() const { return local_mapper_.grid(); }
+  [[nodiscard]] const JoinerCounters& joiner_counters() const { return joiner_.counters(); }
+  [[nodiscard]] const PlaceDetectorReport& place_report() const { return place_detector_.report(); }
+  [[nodiscard]] GaussianPose T_global_robot() const {
+    return compounded(T_global_anchor_, since_anchor_);
+  }
+
+ private:
+  /// The best hypothesis, as of the last layout.
+  struct LaidOut {
+    HypothesisId id;
+    TopologicalMap map;
+  };
+
+  void enter(Stage stage) const;
+
+  // Perception: pipeline.cpp.
+
+  void detect_places(const LocalFix& fix, Updates* updates);
+  /// One step of experience: the tree grows, the best hypothesis is laid out.
+  void take_up(Visit visit, Updates* updates);
+  /// @pre the experience has the visit
+  void grow(const View& view, Updates* updates);
+  /// Whether this is the last visit, told once more: after a restart the detector sees its place
+  /// again, and so it does where the input paused while the robot was there.
+  [[nodiscard]] bool is_known(const PlaceVisit& visit) const;
+
+  // The map: pipeline_map.cpp.
+
+  [[nodiscard]] Evidence evidence() const;
+  /// The tree has been grown anew.
+  void take_in(const AssertionReport& report);
+  void lay_out();
+  /// From here on the robot's pose is this place's, and the motions since.
+  void anchor_robot();
+  void tell_best_map(MapState* state) const;
+  void tell_hypotheses(MapState* state) const;
+
+  ServiceOptions options_;
+  StageObserver observer_;
+  ScanJoiner joiner_;
+  BetweenScans between_scans_;
+  LocalMapper local_mapper_;
+  PlaceDetector place_detector_;
+  Experience experience_;
+  VisitMatcher matcher_;
+  HypothesisTree tree_;
+  std::optional<LaidOut> laid_out_;
+  MetricalMap metrical_;                  ///< Of that hypothesis.
+  std::map<VisitId, std::string> names_;  ///< Given by people, to the place of a visit.
+  OperatorLog operator_log_;
+  std::string blamed_;            ///< By the last repair.
+  GaussianPose T_global_anchor_;  ///< The robot at the last visit's anchor.
+  GaussianPose since_anchor_;     ///< Its motion since.
+  std::int64_t revision_ = 0;
+  std::int64_t refuted_ = 0;
+  std::int64_t refused_visits_ = 0;
+  bool resumed_ = false;  ///< And no visit to elsewhere has come since.
+};
+
+}  // namespace cairn

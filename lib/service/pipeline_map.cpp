@@ -1,0 +1,169 @@
+// The best map: evidence for the tree, the layout of its best hypothesis, and what is told of it.
+
+#include <limits>
+#include <utility>
+
+#include "base/check.hpp"
+#include "service/pipeline.hpp"
+
+namespace cairn {
+namespace {
+
+/// Hypotheses that are told to clients; all live ones are counted.
+constexpr std::size_t kToldHypotheses = 50;
+
+}  // namespace
+
+Evidence MappingService::Pipeline::evidence() const {
+  Evidence evidence;
+  const Result<std::vector<EvidenceName>> names = evidence_named(options_.evidence);
+  for (const EvidenceName name : *names) {
+    if (name == EvidenceName::kPlaceMatch) {
+      evidence.same_place = [this](SeenGateway known, SeenGateway now) {
+        return matcher_.log_likelihood_ratio(known.visit, now.visit, {known.gateway, now.gateway});
+      };
+    } else {
+      // The densities' normalisation is left out: it is the same for all maps of one experience.
+      evidence.layout = [this](const TopologicalMap& map) {
+        const Result<PlaceLayout> layout =
+            solve_layout(map.place_count(), matcher_.constraints(map), options_.layout);
+        return layout ? -0.5 * layout->chi2 : -std::numeric_limits<double>::infinity();
+      };
+    }
+  }
+  return evidence;
+}
+
+void MappingService::Pipeline::name_place_of(VisitId visit, const std::string& name) {
+  CAIRN_CHECK(visit.index() < experience_.visits().size());
+  const auto known = names_.find(visit);
+  if (known == names_.end() ? name.empty() : known->second == name) {
+    return;  // Asked again: nothing changes, so no new revision.
+  }
+  if (name.empty()) {
+    names_.erase(visit);
+  } else {
+    names_[visit] = name;
+  }
+  ++revision_;
+}
+
+Result<AssertionReport> MappingService::Pipeline::assert_places(VisitId a,
+                                                                VisitId b,
+                                                                bool is_same,
+                                                                const Operator& by) {
+  Result<AssertionReport> report = tree_.assert_places(a, b, is_same, by.who);
+  if (report) {
+    operator_log_.made(*report, by.when);
+    take_in(*report);
+  }
+  return report;
+}
+
+Result<AssertionReport> MappingService::Pipeline::retract(int assertion, const Operator& by) {
+  Result<AssertionReport> report = tree_.retract(assertion, by.who);
+  if (report) {
+    operator_log_.retracted(*report, by.when);
+    take_in(*report);
+  }
+  return report;
+}
+
+std::optional<VisitId> MappingService::Pipeline::first_visit(int place) const {
+  if (!laid_out_ || place < 0 || place >= laid_out_->map.place_count()) {
+    return std::nullopt;
+  }
+  return laid_out_->map.first_visit(PlaceId{place});
+}
+
+void MappingService::Pipeline::take_in(const AssertionReport& report) {
+  blamed_ = report.repair ? to_text(report.repair->blamed) : "";
+  ++revision_;
+  enter(Stage::kLayout);
+  lay_out();
+  enter(Stage::kIdle);
+}
+
+void MappingService::Pipeline::lay_out() {
+  const HypothesisId best = tree_.best().id;
+  TopologicalMap map = tree_.map(best);
+  Result<MetricalMap> metrical = metrical_map(map, experience_, matcher_, options_.layout);
+  // A layout that does not converge leaves the last one standing; the next visit tries again.
+  if (metrical) {
+    metrical_ = *std::move(metrical);
+    laid_out_ = LaidOut{best, std::move(map)};
+    anchor_robot();
+  }
+}
+
+void MappingService::Pipeline::anchor_robot() {
+  const std::vector<PerceivedScan>& scans = experience_.scans();
+  const std::size_t anchor = experience_.visits().back().anchor_scan;
+  const std::size_t place = laid_out_->map.position().place.index();
+  T_global_anchor_ = {metrical_.T_global_lpm * scans[anchor].fix.T_lpm_robot,
+                      metrical_.layout.covariances[place] + scans[anchor].fix.covariance};
+  since_anchor_ = {};
+  for (std::size_t i = anchor + 1; i < scans.size(); ++i) {
+    since_anchor_ = compounded(since_anchor_, scans[i].fix.motion);
+  }
+}
+
+std::shared_ptr<const MapState> MappingService::Pipeline::state() const {
+  auto state = std::make_shared<MapState>();
+  const std::vector<PerceivedScan>& scans = experience_.scans();
+  state->topology_revision = revision_;
+  state->visit_count = static_cast<std::int64_t>(experience_.visits().size());
+  state->T_global_lpm = metrical_.T_global_lpm;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    state->trajectory.push_back(
+        {scans[i].scan, i < metrical_.trajectory.size()
+                            ? metrical_.trajectory[i]
+                            : metrical_.T_global_lpm * scans[i].fix.T_lpm_robot});
+  }
+  state->poses = with_poses_between(scans, state->trajectory);
+  if (!scans.empty()) {
+    state->time = scans.back().fix.time;
+  }
+  if (laid_out_) {
+    tell_best_map(state.get());
+    tell_hypotheses(state.get());
+  }
+  return state;
+}
+
+/// @pre it is laid out
+void MappingService::Pipeline::tell_best_map(MapState* state) const {
+  const LaidOut& best = *laid_out_;
+  state->hypothesis = best.id.value;
+  state->at_place = best.map.position().place.value;
+  state->path_count = best.map.path_count();
+  state->closure_count = best.map.closure_count();
+  for (int v = 0; v < best.map.visit_count(); ++v) {
+    state->place_of_visit.push_back(best.map.at_visit(VisitId{v}).place.value);
+  }
+  state->places = mapped_places(best.map, experience_, metrical_);
+  for (const auto& [visit, name] : names_) {
+    if (visit.index() < state->place_of_visit.size()) {
+      state->places[static_cast<std::size_t>(state->place_of_visit[visit.index()])].name = name;
+    }
+  }
+  state->segments =
+      mapped_segments(best.map, experience_, metrical_.layout, matcher_.constraints(best.map));
+}
+
+void MappingService::Pipeline::tell_hypotheses(MapState* state) const {
+  state->hypotheses = summaries(tree_, kToldHypotheses);
+  state->probability = state->hypotheses.front().probability;
+  state->live_count = tree_.live_count();
+  state->waiting_count = tree_.waiting_count();
+  state->refused_visits = refused_visits_;
+  state->refuted_count = refuted_;
+  state->blamed = blamed_;
+  state->assertions = operator_log_.audited(tree_.assertions());
+  if (tree_.guarantee_given_up()) {
+    state->guarantee_given_up_at = tree_.guarantee_given_up()->visit.value;
+    state->guarantee_reason = tree_.guarantee_given_up()->reason;
+  }
+}
+
+}  // namespace cairn
