@@ -1,35 +1,28 @@
 #include "runtime/daemon.hpp"
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <random>
 #include <utility>
 
 #include <poll.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
-#include "runtime/latency.hpp"
 #include "runtime/map_log.hpp"
 #include "runtime/mapping_thread.hpp"
 #include "runtime/planner.hpp"
 #include "runtime/publisher.hpp"
 #include "runtime/solver_thread.hpp"
+#include "runtime/status_board.hpp"
 #include "runtime/stop_signal.hpp"
 #include "runtime/supervisor.hpp"
-#include "runtime/version.hpp"
-#include "wire/udp_drops.hpp"
 
 namespace cairn {
 namespace {
 
-constexpr int kProtocolVersion = 1;
 constexpr std::int64_t kStatusEvery_us = 1'000'000;
-constexpr std::int64_t kSensorOld_us = 1'000'000;
 
 std::int64_t new_boot_id() {
   std::random_device random;
@@ -38,13 +31,6 @@ std::int64_t new_boot_id() {
     id = (std::int64_t{random()} << 31) ^ std::int64_t{random()} ^ wall_utime();
   }
   return id;
-}
-
-float resident_mb() {
-  long pages = 0;
-  long resident = 0;
-  std::ifstream("/proc/self/statm") >> pages >> resident;
-  return static_cast<float>(resident) * static_cast<float>(sysconf(_SC_PAGESIZE)) / 1048576.0F;
 }
 
 /// The event loop: bus, signals, the two workers, the status. Everything here runs on one thread.
@@ -69,7 +55,8 @@ class Daemon {
             [this](MapRequest request) { mapping_.ask(std::move(request)); }),
         inlets_(to_inlet_options(options),
                 {[this](LaserScan scan) { take(std::move(scan)); },
-                 [this](OdometrySample sample) { take(sample); }, [](const SonarRing&) {}}) {}
+                 [this](OdometrySample sample) { take(sample); }, [](const SonarRing&) {}}),
+        board_(options) {}
 
   [[nodiscard]] bool subscribe() {
     const Status inputs = inlets_.subscribe(bus_, [] { return time_of_utime(wall_utime()); });
@@ -100,7 +87,7 @@ class Daemon {
   /// What waits is mapped, drawn and stored. @return whether all of it is on the disk
   bool shut_down() {
     supervisor_.stopping();
-    state_override_ = cairn_lcm::status_t::STOPPING;
+    board_.note_stopping();
     publish_status();
     std::unique_ptr<Engine> engine = mapping_.stop();
     take_reports();
@@ -118,9 +105,7 @@ class Daemon {
 
  private:
   void take(SensorReading reading) {
-    const bool is_scan = std::holds_alternative<LaserScan>(reading);
-    (is_scan ? last_scan_us_ : last_odometry_us_) = steady_us();
-    ++(is_scan ? scans_received_ : odometry_received_);
+    board_.took(reading);
     mapping_.take(std::move(reading));
   }
 
@@ -135,12 +120,10 @@ class Daemon {
   void take_reports() {
     while (const std::optional<MappingReport> report = mapping_.next_report()) {
       publisher_.publish(*report);
-      scans_mapped_ += static_cast<std::int64_t>(report->fixes.size());
-      if (!report->fixes.empty()) {
-        latency_.add(report->update_ms);
+      board_.took(*report);
+      if (board_.note_journal(report->journal_trouble)) {
+        publish_status();
       }
-      joiner_ = report->joiner;
-      note_journal(report->journal_trouble);
       if (report->state != nullptr) {
         newest_ = report->state;
       }
@@ -148,18 +131,6 @@ class Daemon {
       log_assertion(*report);
     }
     order_drawing();
-  }
-
-  void note_journal(const std::string& trouble) {
-    if (trouble != journal_trouble_) {
-      if (trouble.empty()) {
-        spdlog::info("the map file can be written again");
-      } else {
-        spdlog::error("the map file cannot be written: {}", trouble);
-      }
-      journal_trouble_ = trouble;
-      publish_status();
-    }
   }
 
   /// One drawing is under way at a time; the newest state is drawn next. What was drawn is stored
@@ -229,81 +200,20 @@ class Daemon {
       last_progress_ = progress;
       supervisor_.alive(std::chrono::steady_clock::now());
     }
-    const int state = current_state().first;
+    const int state = board_.state(publisher_.hears_another_daemon()).first;
     if (now - last_status_us_ >= kStatusEvery_us || state != last_state_) {
       last_state_ = state;
       publish_status();
     }
   }
 
-  /// State and reason for the status.
-  [[nodiscard]] std::pair<int, std::string> current_state() const {
-    using State = cairn_lcm::status_t;
-    const std::int64_t now = steady_us();
-    if (state_override_) {
-      return {*state_override_, "asked to stop"};
-    }
-    if (scans_received_ == 0) {
-      return {State::WAITING_FOR_SENSORS, "no scan has come yet"};
-    }
-    if (!journal_trouble_.empty()) {
-      return {State::DEGRADED, "the map file cannot be written: " + journal_trouble_};
-    }
-    if (publisher_.hears_another_daemon()) {
-      return {State::DEGRADED, "another cairnd is on this bus"};
-    }
-    if (now - last_scan_us_ > kSensorOld_us) {
-      return {State::DEGRADED, "no scan for more than a second"};
-    }
-    if (odometry_received_ == 0) {
-      return {State::DEGRADED, "no odometry: the robot's motion is guessed from the scans"};
-    }
-    return {State::MAPPING, ""};
-  }
-
-  [[nodiscard]] static std::int32_t age_ms(std::int64_t since_us) {
-    return since_us == 0 ? -1 : static_cast<std::int32_t>((steady_us() - since_us) / 1000);
-  }
-
   void publish_status() {
-    constexpr std::array<const char*, 5> kNames = {"STARTING", "WAITING_FOR_SENSORS", "MAPPING",
-                                                   "DEGRADED", "STOPPING"};
-    cairn_lcm::status_t status{};
-    const auto [state, reason] = current_state();
-    status.protocol_version = kProtocolVersion;
-    status.version = kVersion;
-    status.state = state;
-    status.state_name = kNames[static_cast<std::size_t>(state)];
-    status.reason = reason;
-    status.scans_received = scans_received_;
-    status.scans_mapped = scans_mapped_;
-    status.scans_dropped = mapping_.dropped();
-    status.scans_out_of_order = static_cast<std::int64_t>(joiner_.out_of_order);
-    status.clock_steps = static_cast<std::int64_t>(joiner_.clock_steps);
-    status.scans_refused = static_cast<std::int64_t>(joiner_.duplicates + joiner_.strays);
-    status.odometry_received = odometry_received_;
-    add_inlet_counters(&status);
-    status.udp_drops = wire::own_udp_drops().value_or(-1);
-    status.scan_age_ms = age_ms(last_scan_us_);
-    status.odometry_age_ms = age_ms(last_odometry_us_);
-    status.update_ms_p50 = latency_.median_ms();
-    status.update_ms_max = latency_.max_ms();
-    status.rss_mb = resident_mb();
+    cairn_lcm::status_t status =
+        board_.status(publisher_.hears_another_daemon(), inlets_, mapping_.dropped());
     last_status_us_ = steady_us();
-    supervisor_.status(std::string(status.state_name) + (reason.empty() ? "" : ": " + reason));
+    supervisor_.status(std::string(status.state_name) +
+                       (status.reason.empty() ? "" : ": " + status.reason));
     publisher_.publish(std::move(status));
-  }
-
-  void add_inlet_counters(cairn_lcm::status_t* status) const {
-    for (const auto& [channel, counters] : inlets_.counters()) {
-      const bool is_odometry =
-          std::find(options_.odometry_channels.begin(), options_.odometry_channels.end(),
-                    channel) != options_.odometry_channels.end();
-      (is_odometry ? status->odometry_refused : status->scans_refused) +=
-          counters.refused + counters.in_future;
-      status->decode_errors += counters.malformed;
-      status->unknown_types += counters.unknown_type;
-    }
   }
 
   const DaemonOptions& options_;
@@ -315,24 +225,16 @@ class Daemon {
   Publisher publisher_;
   Inlets inlets_;
   Supervisor supervisor_;
+  StatusBoard board_;
 
   std::shared_ptr<const MapState> newest_;  ///< Waits to be drawn.
   std::shared_ptr<const MapState> drawn_;   ///< Was drawn last.
   std::int64_t stored_revision_ = 0;        ///< Of the documents in the map file.
   bool is_drawing_ = false;
   std::int64_t last_documents_us_ = 0;
-  std::int64_t last_scan_us_ = 0;
-  std::int64_t last_odometry_us_ = 0;
   std::int64_t last_status_us_ = 0;
   std::int64_t last_progress_ = -1;
-  std::int64_t scans_received_ = 0;
-  std::int64_t scans_mapped_ = 0;
-  std::int64_t odometry_received_ = 0;
   int last_state_ = cairn_lcm::status_t::STARTING;
-  std::optional<int> state_override_;
-  std::string journal_trouble_;
-  JoinerCounters joiner_;
-  Latency latency_;
 };
 
 void complain(const std::string& message) {
