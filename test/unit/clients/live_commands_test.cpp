@@ -8,12 +8,17 @@
 #include <nlohmann/json.hpp>
 
 #include "clients/cairn/program.hpp"
+#include "support/files.hpp"
+#include "support/program_run.hpp"
 #include "unit/clients/fake_daemon.hpp"
 #include "wire/tcpq_hub.hpp"
 
 namespace cairn::clients {
 namespace {
 
+using test::content_of;
+using test::TemporaryFolder;
+using Outcome = test::ProgramRun;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
@@ -41,18 +46,9 @@ class Loop {
 /// The commands against a daemon on a bus of their own: a hub on a free port of this machine.
 class LiveCommands : public ::testing::Test {
  protected:
-  struct Outcome {
-    int status = -1;
-    std::string out;
-    std::string err;
-  };
-
   Outcome run(std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), {"--lcm-url", hub_.url()});
-    std::ostringstream out;
-    std::ostringstream err;
-    const int status = run_cairn(arguments, out, err);
-    return {status, out.str(), err.str()};
+    return test::run_program(run_cairn, arguments);
   }
 
   static wire::TcpqHubOptions on_a_free_port() {

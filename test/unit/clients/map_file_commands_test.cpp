@@ -10,6 +10,9 @@
 
 #include "clients/cairn/map_text.hpp"
 #include "clients/cairn/program.hpp"
+#include "support/files.hpp"
+#include "support/program_run.hpp"
+#include "support/sqlite.hpp"
 #include "unit/clients/sample_map.hpp"
 
 namespace cairn::clients {
@@ -22,17 +25,13 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-struct Outcome {
-  int status = -1;
-  std::string out;
-  std::string err;
-};
+using test::content_of;
+using test::run_sql;
+using test::TemporaryFolder;
+using Outcome = test::ProgramRun;
 
 Outcome run(const std::vector<std::string>& arguments) {
-  std::ostringstream out;
-  std::ostringstream err;
-  const int status = run_cairn(arguments, out, err);
-  return {status, out.str(), err.str()};
+  return test::run_program(run_cairn, arguments);
 }
 
 class MapFileCommands : public ::testing::Test {

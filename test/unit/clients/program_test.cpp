@@ -6,11 +6,15 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include "support/files.hpp"
 #include "unit/clients/sample_map.hpp"
 #include "wire/log_reader.hpp"
 
 namespace cairn::clients {
 namespace {
+
+using test::content_of;
+using test::TemporaryFolder;
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;

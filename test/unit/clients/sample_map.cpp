@@ -2,15 +2,13 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include <cairn_lcm/snapshot_request_t.hpp>
 #include <gtest/gtest.h>
 #include <sqlite3.h>
-#include <unistd.h>
 
+#include "support/sqlite.hpp"
 #include "wire/document.hpp"
 #include "wire/signatures.hpp"
 
@@ -250,40 +248,16 @@ cairn_lcm::status_t sample_status() {
   return s;
 }
 
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "cairn_test_XXXXXX").string();
-  path_ = ::mkdtemp(name.data());
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-std::string content_of(const std::filesystem::path& path) {
-  std::ostringstream content;
-  content << std::ifstream(path, std::ios::binary).rdbuf();
-  return content.str();
-}
-
-void run_sql(const std::filesystem::path& path, const std::string& sql) {
-  sqlite3* database = nullptr;
-  ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
-  EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK)
-      << sqlite3_errmsg(database);
-  sqlite3_close(database);
-}
-
 void write_sample_map(const std::filesystem::path& path) {
-  run_sql(path,
-          "PRAGMA journal_mode = WAL;"
-          "CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT);"
-          "CREATE TABLE document (what INTEGER PRIMARY KEY, revision INTEGER NOT NULL,"
-          "                       bytes BLOB NOT NULL);"
-          "CREATE TABLE visit (id INTEGER PRIMARY KEY);"
-          "INSERT INTO meta VALUES ('application', 'cairn'), ('format_version', '1'),"
-          "                        ('map_id', '7');"
-          "INSERT INTO visit VALUES (1), (2), (3);");
+  test::run_sql(path,
+                "PRAGMA journal_mode = WAL;"
+                "CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT);"
+                "CREATE TABLE document (what INTEGER PRIMARY KEY, revision INTEGER NOT NULL,"
+                "                       bytes BLOB NOT NULL);"
+                "CREATE TABLE visit (id INTEGER PRIMARY KEY);"
+                "INSERT INTO meta VALUES ('application', 'cairn'), ('format_version', '1'),"
+                "                        ('map_id', '7');"
+                "INSERT INTO visit VALUES (1), (2), (3);");
   sqlite3* database = nullptr;
   ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
   store(database, cairn_lcm::snapshot_request_t::GLOBAL_MAP, sample_grid());

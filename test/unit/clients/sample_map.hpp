@@ -23,27 +23,6 @@ namespace cairn::clients {
 [[nodiscard]] cairn_lcm::trajectory_t sample_trajectory();
 [[nodiscard]] cairn_lcm::status_t sample_status();
 
-/// A new directory for the files of one test, removed with it.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder();
-  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
-    return path_ / name;
-  }
-
- private:
-  std::filesystem::path path_;
-};
-
-/// The whole content of a file.
-[[nodiscard]] std::string content_of(const std::filesystem::path& path);
-
-/// Runs SQL on a database file, which it makes where there is none. Fails the test if SQL does.
-void run_sql(const std::filesystem::path& path, const std::string& sql);
-
 /// Writes the sample as a map file of format 1, with three visits in the journal.
 void write_sample_map(const std::filesystem::path& path);
 

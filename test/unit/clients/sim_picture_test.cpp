@@ -1,5 +1,4 @@
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -7,9 +6,9 @@
 
 #include <gmock/gmock.h>
 #include <png.h>
-#include <unistd.h>
 
 #include "clients/sim/world.hpp"
+#include "support/files.hpp"
 
 namespace cairn::sim {
 namespace {
@@ -19,15 +18,8 @@ using ::testing::SizeIs;
 
 namespace fs = std::filesystem;
 
-/// A folder of its own for every test, removed at its end.
 class FloorPicture : public ::testing::Test {
  protected:
-  FloorPicture() {
-    std::string name = (fs::temp_directory_path() / "cairn_sim_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  ~FloorPicture() override { fs::remove_all(folder_); }
-
   /// '.' white, '#' black, '?' grey.
   fs::path picture_of(const std::vector<std::string>& rows) const {
     std::vector<std::uint8_t> grey;
@@ -67,7 +59,7 @@ class FloorPicture : public ::testing::Test {
                                           "######"};
 
  private:
-  fs::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(FloorPicture, WhiteIsFreeAndUnknownIsWall) {

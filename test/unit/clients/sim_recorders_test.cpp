@@ -1,12 +1,10 @@
 #include <atomic>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include "cairn_lcm/laser_scan_t.hpp"
 #include "cairn_lcm/odometry_t.hpp"
@@ -14,6 +12,7 @@
 #include "clients/sim/simulation.hpp"
 #include "clients/sim/text_file.hpp"
 #include "lcm/lcm-cpp.hpp"
+#include "support/files.hpp"
 
 namespace cairn::sim {
 namespace {
@@ -27,12 +26,6 @@ constexpr std::int64_t kStart_utime = 1'000'000'000'000'000;
 
 class Recorders : public ::testing::Test {
  protected:
-  Recorders() {
-    std::string name = (fs::temp_directory_path() / "cairn_sim_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  ~Recorders() override { fs::remove_all(folder_); }
-
   fs::path log_of_seed(unsigned seed, const std::string& name) const {
     const World world = read_world(fs::path(CAIRN_SOURCE_DIR) / "config/worlds/square.txt");
     SimulationOptions options;
@@ -51,7 +44,7 @@ class Recorders : public ::testing::Test {
     return stem;
   }
 
-  fs::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(Recorders, TheSameSeedGivesTheSameBytes) {

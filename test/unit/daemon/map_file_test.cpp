@@ -3,14 +3,16 @@
 #include <filesystem>
 
 #include <gmock/gmock.h>
-#include <sqlite3.h>
 
 #include "storage/journal_codec.hpp"
 #include "support/experience.hpp"
 #include "support/files.hpp"
+#include "support/sqlite.hpp"
 
 namespace cairn {
 namespace {
+
+using test::run_sql;
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -64,13 +66,6 @@ class MapFileTest : public ::testing::Test {
     order.client_id = 5;
     order.request_id = request_id;
     return order;
-  }
-
-  static void run_sql(const std::string& file, const std::string& sql) {
-    sqlite3* database = nullptr;
-    ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
-    EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
-    sqlite3_close(database);
   }
 
   test::TemporaryFolder folder_;

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "support/files.hpp"
+#include "support/program_run.hpp"
 #include "support/recorded_data.hpp"
 
 namespace cairn::lab {
@@ -20,17 +21,10 @@ using test::recorded_data;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
-struct Ran {
-  int status = -1;
-  std::string output;
-  std::string errors;
-};
+using Ran = test::ProgramRun;
 
 Ran run(const std::vector<std::string>& arguments) {
-  std::ostringstream out;
-  std::ostringstream err;
-  const int status = run_lab(arguments, out, err);
-  return {status, out.str(), err.str()};
+  return test::run_program(run_lab, arguments);
 }
 
 /// A file of one exploration: a square loop of corners.
@@ -70,8 +64,8 @@ Ran run_on(const Json& file, const std::vector<std::string>& options = {}) {
 
 TEST(LabTopology, CountsTheGridsOfFigure4) {
   const Ran ran = run({"topology", "--grid", "3x3", "--planar", "--json"});
-  ASSERT_EQ(ran.status, 0) << ran.errors;
-  const Json json = Json::parse(ran.output);
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const Json json = Json::parse(ran.out);
   EXPECT_EQ(json["tree_nodes"], 240);
   EXPECT_EQ(json["maps_built"], 147);
   EXPECT_EQ(json["final_maps"], 62);
@@ -83,15 +77,15 @@ TEST(LabTopology, CountsTheGridsOfFigure4) {
 
 TEST(LabTopology, FollowsTheWalkItIsGiven) {
   const Ran ran = run({"topology", "--grid", "3x4", "--walk", "ESSENNESSWWWNEEENWWWS", "--json"});
-  ASSERT_EQ(ran.status, 0) << ran.errors;
-  EXPECT_EQ(Json::parse(ran.output)["tree_nodes"], 4239);
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(Json::parse(ran.out)["tree_nodes"], 4239);
 }
 
 TEST(LabTopology, BestFirstSearchFindsTheTrueMap) {
   const Ran ran = run({"topology", "--grid", "5x5", "--planar", "--perpendicular", "--search",
                        "best", "--order", "corners", "--json"});
-  ASSERT_EQ(ran.status, 0) << ran.errors;
-  const Json json = Json::parse(ran.output);
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const Json json = Json::parse(ran.out);
   EXPECT_EQ(json["best"]["places"], 25);
   EXPECT_EQ(json["best"]["paths"], 10);
 }
@@ -99,14 +93,14 @@ TEST(LabTopology, BestFirstSearchFindsTheTrueMap) {
 TEST(LabTopology, BestFirstSearchFindsAnOptimalMap) {
   const std::vector<std::string> grid = {"topology", "--grid",       "4x4", "--planar",
                                          "--json",   "--max-places", "16"};
-  const Json all = Json::parse(run(grid).output);
+  const Json all = Json::parse(run(grid).out);
   EXPECT_EQ(all["minimised"],
             "paths, then places, of region-consistent maps without pending gateways");
   for (const std::string order : {"paths", "places"}) {
     SCOPED_TRACE(order);
     std::vector<std::string> best_first = grid;
     best_first.insert(best_first.end(), {"--search", "best", "--order", order});
-    const Json found = Json::parse(run(best_first).output);
+    const Json found = Json::parse(run(best_first).out);
     EXPECT_EQ(found["best"]["paths"], all["optimal"]["paths"]);
     EXPECT_EQ(found["best"]["places"], all["optimal"]["places"]);
     EXPECT_THAT(all["optimal"]["codes"], testing::Contains(found["best"]["code"]));
@@ -116,8 +110,8 @@ TEST(LabTopology, BestFirstSearchFindsAnOptimalMap) {
 
 TEST(LabTopology, SaysWhenItGivesUp) {
   const Ran ran = run({"topology", "--grid", "4x4", "--max-nodes", "1000"});
-  ASSERT_EQ(ran.status, 0) << ran.errors;
-  EXPECT_THAT(ran.output, HasSubstr("given up after 1,000 nodes"));
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("given up after 1,000 nodes"));
 }
 
 TEST(LabTopology, ABoundOnNodesIsReachedOnlyIfMoreAreNeeded) {
@@ -126,7 +120,7 @@ TEST(LabTopology, ABoundOnNodesIsReachedOnlyIfMoreAreNeeded) {
     const auto bounded = [&](const std::string& nodes) {
       return Json::parse(run({"topology", "--grid", "3x3", "--planar", "--search", search,
                               "--max-nodes", nodes, "--json"})
-                             .output);
+                             .out);
     };
     EXPECT_EQ(bounded("240")["is_complete"], true);
     EXPECT_EQ(bounded("240")["final_maps"], 62);
@@ -138,17 +132,17 @@ TEST(LabTopology, ABoundOnNodesIsReachedOnlyIfMoreAreNeeded) {
 TEST(LabTopology, SaysInWhichTravelBreadthFirstSearchGivesUp) {
   const Ran ran = run({"topology", "--grid", "3x3", "--planar", "--search", "breadth",
                        "--max-nodes", "239", "--json"});
-  EXPECT_EQ(Json::parse(ran.output)["leaves_per_step"].size(), 15U);
+  EXPECT_EQ(Json::parse(ran.out)["leaves_per_step"].size(), 15U);
   EXPECT_THAT(
       run({"topology", "--grid", "3x3", "--planar", "--search", "breadth", "--max-nodes", "239"})
-          .output,
+          .out,
       HasSubstr("given up in travel 16 of 16, which makes more than 239 nodes"));
 }
 
 TEST(LabTopology, SaysWhatAHypothesisCosts) {
   const auto cost = [](const std::string& search) {
     return Json::parse(
-        run({"topology", "--grid", "3x3", "--planar", "--search", search, "--json"}).output);
+        run({"topology", "--grid", "3x3", "--planar", "--search", search, "--json"}).out);
   };
   EXPECT_TRUE(cost("depth")["bytes_per_hypothesis"].is_null());
   EXPECT_TRUE(cost("depth")["counting_cpu_ms"].is_null());
@@ -160,9 +154,9 @@ TEST(LabTopology, SaysWhatAHypothesisCosts) {
     EXPECT_GT(json["bytes_per_hypothesis"], json["bytes_per_leaf"]);
   }
   EXPECT_GE(cost("breadth")["counting_cpu_ms"], 0.0);
-  EXPECT_THAT(run({"topology", "--grid", "3x3", "--search", "breadth"}).output,
+  EXPECT_THAT(run({"topology", "--grid", "3x3", "--search", "breadth"}).out,
               HasSubstr(" ms to count final maps and regions"));
-  EXPECT_THAT(run({"topology", "--grid", "3x3"}).output, HasSubstr("counting included"));
+  EXPECT_THAT(run({"topology", "--grid", "3x3"}).out, HasSubstr("counting included"));
 }
 
 TEST(LabTopology, WritesItsDrawings) {
@@ -173,7 +167,7 @@ TEST(LabTopology, WritesItsDrawings) {
     arguments.push_back((folder / kind).string());
   }
   const Ran ran = run(arguments);
-  ASSERT_EQ(ran.status, 0) << ran.errors;
+  ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_THAT(test::content_of(folder / "svg"), HasSubstr("the simplest closed map"));
   EXPECT_THAT(test::content_of(folder / "dot"), HasSubstr("graph map"));
   EXPECT_THAT(test::content_of(folder / "graphml"), HasSubstr("<graphml"));
@@ -184,7 +178,7 @@ TEST(LabTopology, DrawsAMapOfAWalkThatIsNotFinished) {
   const TemporaryFolder folder;
   const std::string path = (folder / "map.svg").string();
   const Ran ran = run({"topology", "--grid", "3x3", "--walk", "EESWWN", "--svg", path});
-  ASSERT_EQ(ran.status, 0) << ran.errors;
+  ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_THAT(test::content_of(path), HasSubstr("a simplest perpendicular map; none is closed"));
   EXPECT_EQ(
       run({"topology", "--grid", "3x3", "--walk", "E", "--search", "best", "--svg", path}).status,
@@ -196,26 +190,25 @@ TEST(LabTopology, DrawsNoTreeThatNobodyCanRead) {
   const std::string path = (folder / "tree.dot").string();
   const Ran ran = run({"topology", "--grid", "4x4", "--tree-dot", path});
   EXPECT_EQ(ran.status, 65);
-  EXPECT_THAT(ran.errors, HasSubstr("more than 2,000 nodes"));
+  EXPECT_THAT(ran.err, HasSubstr("more than 2,000 nodes"));
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
 TEST(LabTopology, ComparesWithAFileOfVectors) {
   const Ran ran = run_on(square_loop());
-  EXPECT_EQ(ran.status, 0) << ran.output << ran.errors;
-  EXPECT_THAT(ran.output, HasSubstr("2 of 2 agree"));
+  EXPECT_EQ(ran.status, 0) << ran.out << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("2 of 2 agree"));
 }
 
 TEST(LabTopology, SaysWhatItCompared) {
   Json file = square_loop();
   file["vectors"][0]["planar"]["final_genus"] = 0;
   const Ran all = run_on(file);
-  EXPECT_THAT(all.output, HasSubstr("final_maps, leaves_per_step, maps_built"));
-  EXPECT_THAT(all.output,
-              HasSubstr("in the file, but not compared (not counted here): final_genus"));
+  EXPECT_THAT(all.out, HasSubstr("final_maps, leaves_per_step, maps_built"));
+  EXPECT_THAT(all.out, HasSubstr("in the file, but not compared (not counted here): final_genus"));
   const Ran under_axiom = run_on(file, {"--region-axiom", "--json"});
-  EXPECT_EQ(under_axiom.status, 0) << under_axiom.output << under_axiom.errors;
-  const Json json = Json::parse(under_axiom.output);
+  EXPECT_EQ(under_axiom.status, 0) << under_axiom.out << under_axiom.err;
+  const Json json = Json::parse(under_axiom.out);
   EXPECT_THAT(json["fields_compared"], testing::Contains("final_maps"));
   EXPECT_THAT(json["fields_not_compared"], testing::Contains("tree_nodes"));
   EXPECT_THAT(json["fields_not_compared"], testing::Contains("closed_paper"));
@@ -226,16 +219,16 @@ TEST(LabTopology, SaysWhichCountDiffers) {
   file["vectors"][0]["planar"]["leaves_per_step"][2] = 7;
   const Ran ran = run_on(file);
   EXPECT_EQ(ran.status, 1);
-  EXPECT_THAT(ran.output, HasSubstr("square, planar: leaves_per_step[2]: expected 7, got 3"));
-  EXPECT_THAT(ran.output, HasSubstr("1 of 2 agree"));
+  EXPECT_THAT(ran.out, HasSubstr("square, planar: leaves_per_step[2]: expected 7, got 3"));
+  EXPECT_THAT(ran.out, HasSubstr("1 of 2 agree"));
 }
 
 TEST(LabTopology, AgreesWithThePublishedVectors) {
   CAIRN_NEED_DATA("topology/vectors.json");
   for (const char* name : {"topology/vectors.json", "topology/office.json"}) {
     const Ran ran = run({"topology", "--json", "--vectors", recorded_data(name).string()});
-    EXPECT_EQ(ran.status, 0) << ran.errors;
-    const Json json = Json::parse(ran.output);
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    const Json json = Json::parse(ran.out);
     const Json file = Json::parse(std::ifstream(recorded_data(name)));
     ASSERT_EQ(json["vectors"].size(), file["vectors"].size());
     for (std::size_t i = 0; i < json["vectors"].size(); ++i) {
@@ -247,8 +240,8 @@ TEST(LabTopology, AgreesWithThePublishedVectors) {
 
 TEST(LabTopology, ExploresRandomWorlds) {
   const Ran ran = run({"topology", "--random", "1", "--count", "20", "--json"});
-  EXPECT_EQ(ran.status, 0) << ran.output << ran.errors;
-  const Json json = Json::parse(ran.output);
+  EXPECT_EQ(ran.status, 0) << ran.out << ran.err;
+  const Json json = Json::parse(ran.out);
   EXPECT_EQ(json["planar"]["true_map_among_leaves"], 20);
   EXPECT_EQ(json["nonplanar"]["obvious_implementation_agrees"], 20);
 }
@@ -270,7 +263,7 @@ TEST_P(LabBadVectors, AreNamed) {
   GetParam().spoil(file);
   const Ran ran = run_on(file);
   EXPECT_EQ(ran.status, 65);
-  EXPECT_THAT(ran.errors, HasSubstr(GetParam().message));
+  EXPECT_THAT(ran.err, HasSubstr(GetParam().message));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -317,11 +310,11 @@ TEST(LabTopology, RejectsWhatIsNoJson) {
   std::ofstream(path) << "{\"stars\": ";
   const Ran ran = run({"topology", "--vectors", path});
   EXPECT_EQ(ran.status, 65);
-  EXPECT_THAT(ran.errors, HasSubstr("not JSON"));
+  EXPECT_THAT(ran.err, HasSubstr("not JSON"));
   EXPECT_EQ(run({"topology", "--vectors", path + ".gone"}).status, 65);
   const Ran on_folder = run({"topology", "--vectors", (folder / "").string()});
   EXPECT_EQ(on_folder.status, 65);
-  EXPECT_THAT(on_folder.errors, HasSubstr("expected a file, got a folder"));
+  EXPECT_THAT(on_folder.err, HasSubstr("expected a file, got a folder"));
 }
 
 TEST(LabTopology, RejectsWrongCommandLines) {
@@ -356,7 +349,7 @@ TEST(LabTopology, RejectsWrongCommandLines) {
       line += " " + argument;
     }
     EXPECT_EQ(ran.status, 64) << "cairn-lab" << line;
-    EXPECT_NE(ran.errors, "") << "cairn-lab" << line;
+    EXPECT_NE(ran.err, "") << "cairn-lab" << line;
   }
 }
 
@@ -378,7 +371,7 @@ TEST(LabTopology, NamesWhatIsWrongInACommandLine) {
     arguments.insert(arguments.end(), options.begin(), options.end());
     const Ran ran = run(arguments);
     EXPECT_EQ(ran.status, 64) << message;
-    EXPECT_THAT(ran.errors, HasSubstr(message));
+    EXPECT_THAT(ran.err, HasSubstr(message));
   }
 }
 

@@ -1,14 +1,13 @@
 #include "wire/log_reader.hpp"
 
-#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
+#include "support/files.hpp"
 #include "support/message_samples.hpp"
 #include "wire/log_writer.hpp"
 #include "wire/signatures.hpp"
@@ -23,15 +22,8 @@ using ::testing::StartsWith;
 
 class RecordedLog : public ::testing::Test {
  protected:
-  ~RecordedLog() override { std::filesystem::remove(file_); }
-
   void write(const std::string& content) { std::ofstream(file_, std::ios::binary) << content; }
-  [[nodiscard]] std::string content() const {
-    std::string content(std::filesystem::file_size(file_), '\0');
-    std::ifstream(file_, std::ios::binary)
-        .read(content.data(), static_cast<std::streamsize>(content.size()));
-    return content;
-  }
+  [[nodiscard]] std::string content() const { return test::content_of(file_); }
   std::vector<LogMessage> read_all() {
     std::vector<LogMessage> messages;
     Expected<LogReader> log = LogReader::open(file_);
@@ -53,8 +45,8 @@ class RecordedLog : public ::testing::Test {
     ASSERT_TRUE(log->close());
   }
 
-  const std::string file_ = std::filesystem::temp_directory_path() /
-                            ("cairn_log_reader_test_" + std::to_string(::getpid()));
+  test::TemporaryFolder folder_;
+  const std::string file_ = (folder_ / "a.log").string();
   std::string damage_;
   std::map<std::string, std::int64_t> skipped_;
   std::int64_t bytes_read_ = 0;
