@@ -1,13 +1,13 @@
 #include "bench/lab/noise_experiment.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <set>
 #include <utility>
 
 #include "base/check.hpp"
+#include "bench/lab/resources.hpp"
 
 namespace cairn::lab {
 namespace {
@@ -111,18 +111,17 @@ HypothesisTree grown_tree(const Walk& walk,
                           const TopologyOptions& options,
                           const Evidence& evidence,
                           EventCosts* costs) {
-  using Clock = std::chrono::steady_clock;
   HypothesisTree tree(options, evidence);
   const Status started = tree.start(view_of(walk, 0));
   CAIRN_CHECK(started.ok());
   for (Index visit = 1; visit < walk.visits.size(); ++visit) {
     const View view = view_of(walk, visit);
-    const auto before = Clock::now();
+    const double before_s = cpu_time_s();
     const Result<ExtendReport> report = tree.extend({walk.exploration.steps[visit - 1].turn}, view);
-    const std::chrono::duration<double, std::milli> time = Clock::now() - before;
+    const double after_s = cpu_time_s();
     CAIRN_CHECK(report.ok());
     const HypothesisTree::Memory memory = tree.memory();
-    costs->times_ms.push_back(time.count());
+    costs->times_ms.push_back(1e3 * (after_s - before_s));
     costs->memory_bytes.push_back(
         static_cast<std::int64_t>(memory.bytes_of_nodes + memory.bytes_of_leaves +
                                   memory.bytes_of_experience + memory.bytes_of_map));

@@ -18,7 +18,14 @@ struct NoiseExperiment {
   /// How well local maps match, calibrated or not; none: symbols are all there is. Its seed is
   /// that of the world.
   std::optional<MatchModel> match = MatchModel{};
-  TopologyOptions topology;
+  TopologyOptions topology = with_independent_answers();
+
+  /// The match model draws each ratio anew.
+  [[nodiscard]] static TopologyOptions with_independent_answers() {
+    TopologyOptions options;
+    options.evidence_correlation = 0.0;
+    return options;
+  }
 };
 
 /// The walk of one seed, and how it was seen.

@@ -153,8 +153,16 @@ OptionObject describe(TopologyOptions* topology) {
       .integer(
           "max_hypotheses", &topology->max_hypotheses, {1, 1e7},
           "Live hypotheses: the best ones. The others wait and come back when they are better.")
+      .number("live_margin", &topology->live_margin, {0, 1e6},
+              "By posterior, hypotheses further below the best wait, in nats.")
       .integer("max_bytes", &topology->max_bytes, {65536, 1e12},
                "Memory of the tree; what this makes it give up is said in the status.")
+      .integer(
+          "max_alike", &topology->max_alike, {1, 1e7},
+          "Of those, so many that part from the best one at one visit are preferred to others.")
+      .number("log_loss_waiting", &topology->log_loss_waiting, {0, 100},
+              "What one that waits is taken to lose per visit, in nats: the last steps are doubted "
+              "before old ones.")
       .integer("max_revivals", &topology->max_revivals, {0, 1e7},
                "Steps of waiting hypotheses per arrival.")
       .integer("max_repair_steps", &topology->max_repair_steps, {0, 1e7},
@@ -163,8 +171,6 @@ OptionObject describe(TopologyOptions* topology) {
                "How many go on with an arrival that nothing explains.")
       .number("log_prior_new_place", &topology->log_prior_new_place, {-1000, 0},
               "Of each place beyond the first, in nats.")
-      .number("log_penalty_unrecognised", &topology->log_penalty_unrecognised, {0, 10000},
-              "If stars may be misread, of each new place, which may be a known one, in nats.")
       .number("log_penalty_misread", &topology->log_penalty_misread, {0, 10000},
               "Of each star taken to be misread, in nats.")
       .number("log_penalty_missed_gateway", &topology->log_penalty_missed_gateway, {0, 10000},
@@ -180,7 +186,11 @@ OptionObject describe(TopologyOptions* topology) {
       .number("recognition_threshold", &topology->recognition_threshold, {0, 10000},
               "Evidence above it may overrule a link, in nats.")
       .number("max_log_evidence", &topology->max_log_evidence, {0, 1000},
-              "Evidence of same places is cut to it, in nats.")
+              "Each answer about same places is cut to it, in nats.")
+      .integer("max_visits_compared", &topology->max_visits_compared, {1, 1000},
+               "The last visits to a place with which a new one is compared.")
+      .number("evidence_correlation", &topology->evidence_correlation, {0, 1},
+              "Between answers about one place: 0, they add up; 1, many are worth one.")
       .number("layout_margin", &topology->layout_margin, {0, 1e6},
               "Hypotheses further below the best are not laid out, in nats.")
       .number("claim_odds", &topology->claim_odds, {1, 1e12},

@@ -31,8 +31,7 @@ struct ServiceOptions {
     // Stars read from noisy maps need the posterior; see docs/decisions/0005-order-by-posterior.md.
     topology.noisy_stars = true;
     topology.preference = Preference::kPosterior;
-    topology.max_hypotheses = 200;
-    topology.log_prior_new_place = -4.0;  // log_penalty_unrecognised comes on top.
+    topology.log_prior_new_place = -4.0;
   }
 };
 

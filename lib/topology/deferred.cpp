@@ -26,6 +26,7 @@ bool DeferredLeaves::is_worse(const Waiting& a, const Waiting& b) const {
 
 void DeferredLeaves::add(const Leaf& leaf, const Rank& rank) {
   waiting_.push_back({leaf, rank});
+  count_ += leaf.count();
   std::push_heap(waiting_.begin(), waiting_.end(),
                  [&](const Waiting& a, const Waiting& b) { return is_worse(a, b); });
 }
@@ -36,6 +37,7 @@ Leaf DeferredLeaves::take_best() {
                 [&](const Waiting& a, const Waiting& b) { return is_worse(a, b); });
   const Leaf best = waiting_.back().leaf;
   waiting_.pop_back();
+  count_ -= best.count();
   return best;
 }
 
@@ -46,6 +48,7 @@ std::vector<Leaf> DeferredLeaves::take_worst_half() {
   std::vector<Leaf> worst;
   for (auto next = waiting_.begin() + kept; next != waiting_.end(); ++next) {
     worst.push_back(next->leaf);
+    count_ -= next->leaf.count();
   }
   waiting_.erase(waiting_.begin() + kept, waiting_.end());
   waiting_.shrink_to_fit();
@@ -56,6 +59,7 @@ std::vector<Leaf> DeferredLeaves::take_worst_half() {
 
 std::vector<Leaf> DeferredLeaves::take_all() {
   std::vector<Leaf> all;
+  count_ = 0;
   for (const Waiting& one : std::exchange(waiting_, {})) {
     all.push_back(one.leaf);
   }

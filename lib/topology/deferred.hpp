@@ -12,10 +12,12 @@ class DeferredLeaves {
  public:
   explicit DeferredLeaves(Preference preference) : preference_(preference) {}
 
-  /// @param rank the leaf's, its posterior compared with that of other arrivals
+  /// @param rank the leaf's, or that of its best untried successor; its posterior compared with
+  /// that of other arrivals
   void add(const Leaf& leaf, const Rank& rank);
   [[nodiscard]] bool empty() const { return waiting_.empty(); }
-  [[nodiscard]] std::size_t count() const { return waiting_.size(); }
+  /// Of maps.
+  [[nodiscard]] std::int64_t count() const { return count_; }
   /// The one to look at first. @pre !empty()
   [[nodiscard]] const Rank& best_rank() const { return waiting_.front().rank; }
   /// Takes it out. @pre !empty()
@@ -42,6 +44,7 @@ class DeferredLeaves {
 
   Preference preference_;
   std::vector<Waiting> waiting_;  // A heap, the best first.
+  std::int64_t count_ = 0;
 };
 
 }  // namespace cairn

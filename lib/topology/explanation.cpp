@@ -63,7 +63,6 @@ std::vector<Alternative> HypothesisTree::alternatives_at(const Leaf& earlier) co
   Engine& engine = *engine_;
   engine.cursor.at(earlier.node);
   const Situation situation = situation_of(earlier);
-  engine.successors.set_support([&](PlaceId place) { return support_of(earlier, place); });
   std::vector<Alternative> all;
   engine.successors.list(situation, Successors::Detail::kAll, all);
   return all;

@@ -16,6 +16,8 @@ namespace cairn {
 enum class GuaranteeLoss {
   kBudget,         ///< The memory was full (TopologyOptions::max_bytes).
   kContradiction,  ///< Every hypothesis was refuted; an observation had to be blamed.
+  /// The same, but not all that might explain it was tried (TopologyOptions::max_repair_steps).
+  kSearch,
 };
 
 /// At which visit the guarantee "every consistent map is among the live and waiting hypotheses" was
@@ -45,6 +47,7 @@ struct Repair {
   std::int64_t steps = 0;     ///< Of the search.
   /// Whether the least costly blame was found; if not, the arrival itself was left unexplained.
   bool is_explained = false;
+  bool is_cut_short = false;  ///< Steps ran out with hypotheses left to try.
 };
 
 /// What one arrival did to the tree.

@@ -8,6 +8,15 @@
 #include "topology/lineage.hpp"
 
 namespace cairn {
+namespace {
+
+/// Which of two is older does not matter.
+bool is_worse(Rank a, Rank b, Preference preference) {
+  a.age = b.age = 0;
+  return comes_before(b, a, preference);
+}
+
+}  // namespace
 
 /// No live hypothesis explains the arrival. Those that wait are asked first; then, if stars are not
 /// expected to be misread, the whole past is searched once more with misreadings allowed, maps as
@@ -22,12 +31,11 @@ void HypothesisTree::repair(ExtendReport& report) {
     const Leaf first = first_leaf();
     root_ = first.node;  // What all agreed on may be in doubt again.
     engine_->nodes.hold(first.node);
-    past.add(first, waiting_rank_of(first));
+    past.add(first, baseline_rank(rank_of(first), first.visit));
     search_among(past, true, report);
     engine_->successors.set_noisy(false);
     for (const Leaf& leaf : past.take_all()) {
-      log_given_up_ =
-          std::max(log_given_up_, leaf.log_posterior() - log_bound_[leaf.visit.index()]);
+      log_given_up_ = std::max(log_given_up_, most_likely(leaf));
       engine_->nodes.release(leaf.node);
     }
   }
@@ -55,8 +63,13 @@ void HypothesisTree::publish_blame(ExtendReport& report) {
   report.repair->blamed = blamed_by(best);
   if (!report.guarantee_given_up) {
     report.guarantee_given_up = GuaranteeGivenUp{
-        report.visit, GuaranteeLoss::kContradiction, best.leaf.log_posterior(),
-        "no hypothesis explained the arrival; blamed: " + to_text(report.repair->blamed)};
+        report.visit,
+        report.repair->is_cut_short ? GuaranteeLoss::kSearch : GuaranteeLoss::kContradiction,
+        best.leaf.log_posterior(),
+        std::string(report.repair->is_cut_short
+                        ? "no hypothesis tried in max_repair_steps explained the arrival; blamed: "
+                        : "no hypothesis explained the arrival; blamed: ") +
+            to_text(report.repair->blamed)};
   }
 }
 
@@ -79,32 +92,38 @@ void HypothesisTree::search_among(DeferredLeaves& leaves, bool all_wanted, Exten
   const Preference preference = engine_->options.preference;
   const std::int64_t most = report.repair->steps + engine_->options.max_repair_steps;
   std::vector<Candidate> found;
+  std::vector<Siblings> found_siblings;
   std::optional<Rank> best;
   while (!leaves.empty() && report.repair->steps < most &&
-         (!best || (all_wanted && comes_before(leaves.best_rank(), *best, preference)))) {
+         (!best || (all_wanted && !is_worse(leaves.best_rank(), *best, preference)))) {
     const Leaf leaf = leaves.take_best();
     ++report.repair->steps;
     candidates_.clear();
+    siblings_.clear();
     ExtendReport uncounted;
     const bool is_last_step = leaf.visit.value + 1 == report.visit.value;
     expand(leaf, is_last_step ? report : uncounted);
     if (is_last_step) {
       searched_.push_back(leaf.node);  // Its candidates stand on it.
       for (const Candidate& candidate : candidates_) {
-        Rank rank = rank_of(candidate.leaf);
-        rank.log_posterior -= baseline_log_posterior_.back();
+        const Rank rank = baseline_rank(rank_of(candidate.leaf), VisitId{report.visit.value - 1});
         best = best && comes_before(*best, rank, preference) ? *best : rank;
       }
+      found_siblings.push_back({leaf, found.size(), found.size() + candidates_.size()});
       found.insert(found.end(), candidates_.begin(), candidates_.end());
       continue;
     }
     for (const Candidate& child : candidates_) {
       const Leaf grown = grow(child);
-      leaves.add(grown, waiting_rank_of(grown));
+      leaves.add(grown,
+                 all_wanted ? baseline_rank(rank_of(grown), grown.visit) : waiting_rank_of(grown));
     }
     engine_->nodes.release(leaf.node);
   }
+  report.repair->is_cut_short =
+      report.repair->is_cut_short || (report.repair->steps >= most && !leaves.empty());
   candidates_ = std::move(found);
+  siblings_ = std::move(found_siblings);
 }
 
 /// The best hypotheses only.
@@ -122,11 +141,11 @@ void HypothesisTree::go_on_unexplained(ExtendReport& report) {
     const Alternative broken = engine.successors.unexplained(situation_of(best[index]));
     ++report.steps[static_cast<std::size_t>(broken.kind)];
     ++report.breaks;
+    siblings_.push_back({best[index], candidates_.size(), candidates_.size() + 1});
     candidates_.push_back(candidate_of(best[index], broken));
   }
   for (std::size_t index = most; index < best.size(); ++index) {
-    log_given_up_ = std::max(log_given_up_,
-                             best[index].log_posterior() - log_bound_[best[index].visit.index()]);
+    log_given_up_ = std::max(log_given_up_, most_likely(best[index]));
   }
   report.dropped += static_cast<std::int64_t>(best.size() - most);
 }

@@ -43,7 +43,8 @@ HypothesisTree::Engine::Engine(const TopologyOptions& chosen, Evidence given)
     : options(chosen),
       evidence(std::move(given)),
       experience(stars, costs_of(chosen)),
-      cursor(nodes, stars, rings_of(chosen)),
+      records_visits(chosen.noisy_stars || evidence.same_place || chosen.max_repair_steps > 0),
+      cursor(nodes, stars, rings_of(chosen), records_visits),
       successors(options, evidence, experience, stars, cursor.map()) {}
 
 HypothesisTree::HypothesisTree(const TopologyOptions& options, Evidence evidence)
@@ -143,8 +144,19 @@ ExtendReport HypothesisTree::absorb_next(const Deadline& is_time_up) {
   const auto refuted_before = engine.successors.refuted();
   const std::int64_t contradicted_before = engine.successors.links_contradicted();
   candidates_.clear();
+  siblings_.clear();
   amendments_.clear();
   expand_live(is_time_up, report);
+  if (const double surprise = surprise_of_best();
+      engine.options.noisy_stars && surprise > engine.options.log_penalty_break) {
+    engine.successors.allow_rejoining(report.visit);
+    report = ExtendReport();
+    report.visit = VisitId{static_cast<std::int32_t>(baseline_log_posterior_.size())};
+    candidates_.clear();
+    siblings_.clear();
+    amendments_.clear();
+    expand_live(is_time_up, report);
+  }
   if (candidates_.empty()) {
     repair(report);
   } else if (std::all_of(candidates_.begin(), candidates_.end(), [](const Candidate& next) {
@@ -182,7 +194,7 @@ double HypothesisTree::most_gained_at(VisitId visit) const {
   }
   const double most = engine.evidence.same_place_bound ? engine.evidence.same_place_bound(visit)
                                                        : engine.options.max_log_evidence;
-  return std::max(most, engine.options.log_prior_new_place);
+  return std::max(most, 0.0) * most_independent_answers(engine.options);
 }
 
 void HypothesisTree::expand_live(const Deadline& is_time_up, ExtendReport& report) {
@@ -212,21 +224,23 @@ void HypothesisTree::expand(const Leaf& leaf, ExtendReport& report) {
   Engine& engine = *engine_;
   engine.cursor.at(leaf.node);
   const Situation situation = situation_of(leaf);
-  // Also asked where stars are not expected to be misread, by a repair search.
-  engine.successors.set_support([&](PlaceId place) { return support_of(leaf, place); });
   engine.successors.list(situation, Successors::Detail::kPossible, alternatives_);
-  const std::size_t before = candidates_.size();
+  Siblings siblings{leaf, candidates_.size(), 0};
   for (const Alternative& alternative : alternatives_) {
-    if (!leaf.is_new_place_only || alternative.kind == StepKind::kNewPlace) {
-      ++report.steps[static_cast<std::size_t>(alternative.kind)];
-      candidates_.push_back(candidate_of(leaf, alternative));
-    }
+    ++report.steps[static_cast<std::size_t>(alternative.kind)];
+    candidates_.push_back(candidate_of(leaf, alternative));
   }
-  if (candidates_.size() == before && engine.options.noisy_stars && !leaf.is_new_place_only) {
+  if (candidates_.size() == siblings.first && engine.options.noisy_stars) {
     ++report.breaks;
     ++report.steps[static_cast<std::size_t>(StepKind::kContradiction)];
     candidates_.push_back(candidate_of(leaf, engine.successors.unexplained(situation)));
   }
+  siblings.end = candidates_.size();
+  if (leaf.tried > 0) {
+    skip_tried(siblings);
+    siblings.end = candidates_.size();
+  }
+  siblings_.push_back(siblings);
 }
 
 HypothesisTree::Candidate HypothesisTree::candidate_of(const Leaf& leaf,
@@ -235,13 +249,14 @@ HypothesisTree::Candidate HypothesisTree::candidate_of(const Leaf& leaf,
   Candidate next;
   next.leaf = leaf;
   next.leaf.visit.value += 1;
-  next.leaf.is_new_place_only = false;
+  next.leaf.tried = 0;
+  next.leaf.untried = 0;
+  next.leaf.log_untried = 0.0;
   next.leaf.position = alternative.position;
   next.leaf.log_steps += alternative.log_likelihood;
   next.leaf.contradictions += is_contradiction(alternative.kind) ? 1 : 0;
   next.leaf.place_count += adds_place(alternative.change) ? 1 : 0;
   next.paths_added = paths_added(engine.stars, alternative.change);
-  next.parent_position = leaf.position;
   next.kind = alternative.kind;
   next.misreading = alternative.misreading;
   next.log_likelihood = alternative.log_likelihood;

@@ -86,9 +86,7 @@ class HypothesisTree {
   /// @pre started
   [[nodiscard]] Hypothesis best() const;
   [[nodiscard]] std::int64_t live_count() const { return static_cast<std::int64_t>(live_.size()); }
-  [[nodiscard]] std::int64_t waiting_count() const {
-    return static_cast<std::int64_t>(waiting_.count());
-  }
+  [[nodiscard]] std::int64_t waiting_count() const { return waiting_.count(); }
   /// For each hypothesis of the fringe its share of the live ones' posterior: they sum to 1.
   [[nodiscard]] std::vector<double> probabilities() const;
   /// How far the best live hypothesis is ahead of everything that waits or was given up, however
@@ -231,8 +229,14 @@ class HypothesisTree {
     MapChange change;
     std::int32_t amendment = -1;  ///< Position in amendments_.
     std::int32_t paths_added = 0;
-    GatewayIndex parent_position = kNoGateway;
     bool is_departure_open = false;  ///< As Alternative::is_departure_open.
+  };
+
+  /// The successors of one leaf among the candidates.
+  struct Siblings {
+    Leaf parent;
+    std::size_t first = 0;
+    std::size_t end = 0;
   };
 
   Result<ExtendReport> arrive(Action action,
@@ -252,13 +256,21 @@ class HypothesisTree {
   [[nodiscard]] Situation situation_of(const Leaf& leaf) const;
   [[nodiscard]] PlaceOrder order_for(const Leaf& leaf, VisitId visit) const;
   [[nodiscard]] std::optional<PlaceId> place_of_visit(const Leaf& leaf, VisitId visit) const;
-  [[nodiscard]] int support_of(const Leaf& leaf, PlaceId place) const;
 
   // hypothesis_budget.cpp
   void keep_best(ExtendReport& report);
   [[nodiscard]] Leaf grow(const Candidate& candidate);
   void defer(const Leaf& leaf, ExtendReport& report);
-  void defer(const Candidate& candidate, ExtendReport& report);
+  void defer_untried(const Siblings& siblings,
+                     const std::vector<bool>& waits,
+                     ExtendReport& report);
+  [[nodiscard]] std::vector<bool> those_that_wait() const;
+  [[nodiscard]] std::vector<NodeIndex> forks_from(NodeIndex leaf) const;
+  [[nodiscard]] double surprise_of_best();
+  [[nodiscard]] Rank rank_of_candidate(std::size_t index) const;
+  [[nodiscard]] std::vector<std::size_t> best_first(const Siblings& siblings) const;
+  void skip_tried(const Siblings& siblings);
+  [[nodiscard]] bool is_wanted(const Rank& waiting) const;
   void revive(const Deadline& is_time_up, ExtendReport& report);
   void bring_forward(const Leaf& leaf, ExtendReport& report);
   void make_room(ExtendReport& report);
@@ -272,6 +284,9 @@ class HypothesisTree {
   void go_on_unexplained(ExtendReport& report);
   [[nodiscard]] Rank rank_of(const Leaf& leaf) const;
   [[nodiscard]] Rank waiting_rank_of(const Leaf& leaf) const;
+  [[nodiscard]] Rank waiting_rank(Rank rank, VisitId visit) const;
+  [[nodiscard]] Rank baseline_rank(Rank rank, VisitId visit) const;
+  [[nodiscard]] double most_likely(const Leaf& waiting) const;
   [[nodiscard]] std::vector<Blame> blamed_by(const Candidate& candidate) const;
 
   void lay_out(ExtendReport& report);
@@ -304,19 +319,18 @@ class HypothesisTree {
     StarCatalogue stars;
     ExperienceLog experience;
     TreeNodes nodes;
+    bool records_visits;  // Each arrival leaves a node, so that evidence of all visits counts.
     MapCursor cursor;
     Successors successors;
     std::shared_ptr<const StarCatalogue> shared_stars;  // For maps that are handed out.
-    std::optional<Lineage> followed;  // Of the leaf that was last asked about a place's support.
-    HypothesisId followed_node;
   };
   std::unique_ptr<Engine> engine_;
   std::vector<Leaf> live_;  // Children where their parent was: in the order of the tree.
   DeferredLeaves waiting_;
   NodeIndex root_ = kNoNode;  // The deepest one that all leaves stand on or below.
   OperatorAssertions assertions_;
-  // By visit: of the best live one, but falling no faster than that of a map that grows by a new
-  // place each time. Otherwise none that waits would be looked at when all live ones fail.
+  // By visit: what the right map may have come to. It gains what the best live one gains, loses no
+  // more than by a new place, and gains what evidence says that the best one misses.
   std::vector<double> baseline_log_posterior_;
   std::vector<double> log_bound_;  // By visit: what all steps up to it may have gained.
   std::int64_t node_count_ = 0;
@@ -325,6 +339,7 @@ class HypothesisTree {
   double log_given_up_ = -std::numeric_limits<double>::infinity();  // Bound, as of visit 0.
 
   std::vector<Candidate> candidates_;  // Of the arrival at hand.
+  std::vector<Siblings> siblings_;     // They follow each other in the candidates.
   std::vector<MapChange> amendments_;
   std::vector<NodeIndex> searched_;        // On which candidates stand that repair found.
   std::vector<Alternative> alternatives_;  // Reused.

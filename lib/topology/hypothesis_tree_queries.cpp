@@ -74,9 +74,7 @@ double HypothesisTree::proven_gap() const {
     best = std::max(best, leaf.log_posterior());
   }
   double rival = log_given_up_;
-  waiting_.for_each([&](const Leaf& leaf) {
-    rival = std::max(rival, leaf.log_posterior() - log_bound_[leaf.visit.index()]);
-  });
+  waiting_.for_each([&](const Leaf& leaf) { rival = std::max(rival, most_likely(leaf)); });
   if (std::isinf(best) && best < 0.0) {
     return best;  // Nothing is proven where even the best is impossible.
   }
@@ -196,24 +194,10 @@ Leaf HypothesisTree::before(const Leaf& leaf, VisitId visit) const {
   return earlier;
 }
 
-/// How many visits saw the place's star as the hypothesis takes it to be. All places of one leaf
-/// are told by following it once.
-int HypothesisTree::support_of(const Leaf& leaf, PlaceId place) const {
-  Engine& engine = *engine_;
-  const HypothesisId node = engine.nodes[leaf.node].id;
-  if (!engine.followed || engine.followed_node != node || engine.followed->visit() != leaf.visit) {
-    engine.followed.emplace(lineage_of(leaf));
-    engine.followed_node = node;
-    while (engine.followed->visit() < leaf.visit) {
-      engine.followed->advance();
-    }
-  }
-  return engine.followed->support(place);
-}
-
 HypothesisId HypothesisTree::parent_of(const TreeNode& node) const {
   NodeIndex parent = node.parent;
-  while (parent != kNoNode && engine_->nodes[parent].is_part) {
+  while (parent != kNoNode &&
+         (engine_->nodes[parent].is_part || engine_->nodes[parent].id == node.id)) {
     parent = engine_->nodes[parent].parent;
   }
   return parent == kNoNode ? HypothesisId{} : engine_->nodes[parent].id;
@@ -222,7 +206,7 @@ HypothesisId HypothesisTree::parent_of(const TreeNode& node) const {
 NodeIndex HypothesisTree::find_node(HypothesisId id) const {
   NodeIndex found = kNoNode;
   engine_->nodes.for_each([&](NodeIndex index, const TreeNode& node) {
-    found = node.id == id && !node.is_part ? index : found;
+    found = node.id == id && !node.is_part && !node.is_same_map ? index : found;
   });
   return found;
 }
@@ -245,7 +229,7 @@ StepKind HypothesisTree::step(HypothesisId id) const {
 std::vector<HypothesisTree::NodeView> HypothesisTree::nodes() const {
   std::map<HypothesisId, NodeView> by_id;
   engine_->nodes.for_each([&](NodeIndex, const TreeNode& node) {
-    if (!node.is_part) {
+    if (!node.is_part && !node.is_same_map) {
       by_id[node.id] = {node.id, parent_of(node), node.visit, node.kind,
                         static_cast<double>(node.log_likelihood)};
     }

@@ -8,7 +8,7 @@
 namespace cairn {
 
 /// A map of the tree and the robot in it, after some visit: the last one, or, where it waits, an
-/// earlier one.
+/// earlier one. Where the best of its successors live on by themselves, it waits for the others.
 struct Leaf {
   NodeIndex node = kNoNode;
   GatewayIndex position = kNoGateway;  ///< The gateway by which the robot came in.
@@ -19,8 +19,12 @@ struct Leaf {
   double log_steps = 0.0;
   double log_layout = 0.0;
   bool is_layout_deferred = false;
-  /// Waits with one thing to try at its next visit: a new place. All else was tried.
-  bool is_new_place_only = false;
+  std::int32_t tried = 0;    ///< Successors at the next visit that left it, the best ones.
+  std::int32_t untried = 0;  ///< Successors that wait in it; 0: it was not looked at.
+  double log_untried = 0.0;  ///< The greatest log-likelihood of their steps.
+
+  /// Maps that it stands for.
+  [[nodiscard]] std::int64_t count() const { return untried > 0 ? untried : 1; }
 
   [[nodiscard]] double log_posterior() const { return log_steps + log_layout; }
 };

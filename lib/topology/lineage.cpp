@@ -18,6 +18,7 @@ Lineage::Lineage(const TreeNodes& nodes,
       position_(nodes[branch_.front()].position) {
   const TreeNode& root = nodes[branch_.front()];
   map_.start(root.change.star, root.visit);
+  map_.record_visit(position_, root.visit);
   arrivals_.push_back(map_.ref(position_));
   departures_.emplace_back();
 }
@@ -36,11 +37,16 @@ void Lineage::advance() {
     CAIRN_CHECK(departure != kNoGateway && !map_.is_pending(departure));
     position_ = map_.leads_to(departure);
   }
+  map_.record_visit(position_, next);
   arrivals_.push_back(map_.ref(position_));
   departures_.emplace_back();
 }
 
 void Lineage::take(const TreeNode& node) {
+  if (node.is_same_map) {
+    position_ = node.position;
+    return;
+  }
   if (node.change.kind == MapChange::Kind::kOtherStar) {
     const PlaceId place = map_.place_of(node.change.departure);
     const int before = map_.gateway_count(place);
@@ -79,19 +85,6 @@ void Lineage::renumber(PlaceId place, int before, const MapChange& change) {
   };
   std::for_each(arrivals_.begin(), arrivals_.end(), move);
   std::for_each(departures_.begin(), departures_.end(), move);
-}
-
-int Lineage::support(PlaceId place) const {
-  const StarId star = map_.star(place);
-  int agreeing = 0;
-  for (std::size_t visit = 0; visit < arrivals_.size(); ++visit) {
-    if (arrivals_[visit].place == place) {
-      const ReadingMatch& match = experience_->matcher(VisitId{static_cast<std::int32_t>(visit)})
-                                      .match(star, arrivals_[visit].gateway);
-      agreeing += match.is_possible() && match.misreading == Misreading::kNone ? 1 : 0;
-    }
-  }
-  return agreeing;
 }
 
 }  // namespace cairn

@@ -30,8 +30,6 @@ class Lineage {
   /// By visit, the gateway by which the robot left, as the place is now; no place where no step
   /// tells it.
   [[nodiscard]] const std::vector<GatewayRef>& departures() const { return departures_; }
-  /// Visits to a place so far that are not blamed.
-  [[nodiscard]] int support(PlaceId place) const;
 
  private:
   void take(const TreeNode& node);

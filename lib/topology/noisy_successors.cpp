@@ -36,7 +36,7 @@ void Successors::consider_misreading(GatewayIndex departure,
 /// The robot may always have come to a new place instead.
 bool Successors::is_worth_blaming(double log_likelihood) const {
   return log_likelihood + log_prior_of_closing() >=
-         log_prior_of_new_place() - options_->blame_margin;
+         options_->log_prior_new_place - options_->blame_margin;
 }
 
 /// A place is twice on a path if one of the stars on it was misread. No path is a ring.
@@ -85,7 +85,7 @@ void Successors::consider_inserting(GatewayIndex departure, const Arrival& arriv
     inserted.position = map_.end_gateway() + number;
     inserted.change = {MapChange::Kind::kInsertPlace, arrival.view->star_id(reading), arrival.visit,
                        departure, number};
-    inserted.log_likelihood = log_prior_of_new_place() + log_likelihood_of(view, reading) -
+    inserted.log_likelihood = options_->log_prior_new_place + log_likelihood_of(view, reading) -
                               options_->log_penalty_unnoticed;
     add(inserted, arrival);
   }
@@ -114,30 +114,37 @@ void Successors::consider_unexplained(GatewayIndex departure, const Arrival& arr
   }
 }
 
-// A map without contradictions gives no reason to doubt its links.
+// Evidence says clearly that the robot is at a place which the map has elsewhere: some earlier step
+// was wrong. As long as nobody knows which, the travel stays unexplained, and the robot is where it
+// is. Only where the symbols allow nothing that evidence speaks for.
 void Successors::consider_rejoining(GatewayIndex departure, const Arrival& arrival) {
-  if (map_.one_way_count() == 0 || !evidence_->same_place) {
+  if (rejoining_.count(arrival.visit) == 0 || arrival.on_the_way != StepKind::kStart ||
+      arrival.amendment.kind != MapChange::Kind::kNothing || is_recognised()) {
     return;
   }
-  for (PlaceId place{0}; place.value < map_.place_count(); ++place.value) {
-    const GatewayIndex first = map_.first_gateway(place);
-    for (GatewayIndex at = first; at < first + map_.gateway_count(place); ++at) {
-      const ReadingMatch& match = arrival.view->match(map_.star(place), at - first);
-      if (map_.is_pending(at) || !match.is_possible()) {
-        continue;
-      }
-      const double ratio = recognition(at, match, arrival.visit);
-      if (ratio > options_->recognition_threshold) {
-        Alternative again;
-        again.kind = StepKind::kRejoin;
-        again.departure = departure;
-        again.position = at;
-        again.change = {MapChange::Kind::kOneWay, {}, arrival.visit, departure, at};
-        again.log_likelihood = match.log_likelihood + ratio - options_->log_penalty_break;
-        add(again, arrival);
-      }
-    }
+  const Recognised likeliest = likeliest_place(arrival.visit);
+  const double log_likelihood = likeliest.log_likelihood - options_->log_penalty_break;
+  if (likeliest.at == kNoGateway || likeliest.at == departure ||
+      log_likelihood <= options_->log_prior_new_place) {
+    return;
   }
+  Alternative again;
+  again.kind = StepKind::kRejoin;
+  again.departure = departure;
+  again.position = likeliest.at;
+  again.change = {MapChange::Kind::kNothing, {}, arrival.visit, departure, likeliest.at};
+  if (map_.is_pending(departure)) {
+    again.change.kind = MapChange::Kind::kOneWay;
+  }
+  again.log_likelihood = log_likelihood;
+  add(again, arrival);
+}
+
+/// Whether evidence speaks for one of the alternatives found.
+bool Successors::is_recognised() const {
+  return std::any_of(found_->begin(), found_->end(), [](const Alternative& one) {
+    return one.refuted_by == Refutation::kNone && one.log_likelihood > 0.0;
+  });
 }
 
 /// The gateway of a place from which it looks most like the view, the departing one only if there
@@ -166,7 +173,7 @@ Alternative Successors::unexplained(const Situation& situation) {
   const VisitId before{situation.visit.value - 1};
   Alternative broken;
   broken.kind = StepKind::kContradiction;
-  broken.log_likelihood = log_prior_of_new_place() - options_->log_penalty_break;
+  broken.log_likelihood = options_->log_prior_new_place - options_->log_penalty_break;
   if (!experience_->is_carried(situation.visit)) {
     broken.departure = experience_->departure(map_, situation.position, before,
                                               experience_->action(situation.visit));

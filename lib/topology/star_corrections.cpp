@@ -48,6 +48,21 @@ bool repeats_a_place_around(const WorkingMap& map, PlaceId place) {
   return false;
 }
 
+/// For each gateway of the view its number at a place that lacks the gateway of arrival; -1: that.
+/// @param number of the gateway `beside` at the place
+std::vector<int> gateways_but_arrival(const View& view, int number, int beside) {
+  const int gateways = gateway_count(view.star);
+  std::vector<int> numbers(static_cast<std::size_t>(gateways), -1);
+  for (int step = 0; step < gateways; ++step) {
+    const int at = (beside + step) % gateways;
+    if (at != view.arrival_gateway) {
+      numbers[static_cast<std::size_t>(at)] = number;
+      number = (number + 1) % (gateways - 1);
+    }
+  }
+  return numbers;
+}
+
 }  // namespace
 
 // Earlier visits misread the star: the place is as this visit saw it.
@@ -135,22 +150,26 @@ std::optional<Successors::Amendment> Successors::amendment_of(PlaceId place,
   }
   const double own = log_likelihood_of(view, match.reading);
   const double blame = own - match.log_likelihood;
-  const int supporters = support_ ? std::max(support_(place), 1) : 1;
   Amendment amendment;
   amendment.change = {MapChange::Kind::kOtherStar, stars_->add(amended->star), arrival.visit,
                       map_.first_gateway(place), amended->changed_gateway};
   amendment.arrival_number =
       amended->gateway_of_view[static_cast<std::size_t>(view.arrival_gateway)];
-  amendment.log_likelihood = own - supporters * blame;
+  amendment.log_likelihood = own - support(place) * blame;
   amendment.misreading = match.misreading;
   return amendment;
 }
 
 /// Whether the robot went through the gateway, or was where it came in by it: it is no false one.
 bool Successors::was_used(GatewayIndex at) const {
-  const View& first = experience_->view(map_.first_visit(map_.place_of(at)));
-  if (!map_.is_pending(at) || seen_number(at) == first.arrival_gateway) {
+  if (!map_.is_pending(at)) {
     return true;
+  }
+  for (std::int32_t index = map_.latest_record(map_.place_of(at)); index >= 0;
+       index = map_.record(index).previous) {
+    if (map_.record(index).number == map_.number_of(at)) {
+      return true;
+    }
   }
   for (GatewayIndex other = 0; map_.one_way_count() > 0 && other < map_.end_gateway(); ++other) {
     if (map_.leads_to(other) == at) {
@@ -193,9 +212,11 @@ void Successors::consider_unseen_gateway(GatewayIndex departure,
                                          const Arrival& arrival) {
   const View& view = arrival.view->view();
   const PlaceId place = map_.place_of(known);
-  const int seen_as = seen_number(known);
+  if (map_.gateway_count(place) + 1 != cairn::gateway_count(view.star)) {
+    return;
+  }
   const double ratio =
-      seen_as < 0 ? 0.0 : asked({map_.first_visit(place), seen_as}, {arrival.visit, beside});
+      answers(place, gateways_but_arrival(view, map_.number_of(known), beside), arrival.visit).all;
   if (!is_worth_blaming(ratio - options_->log_penalty_missed_gateway)) {
     return;
   }
@@ -214,7 +235,6 @@ void Successors::consider_unseen_gateway(GatewayIndex departure,
   if (map_.gateway_count(place) != before || inserted == 0 || place == map_.place_of(departure)) {
     return;
   }
-  const int supporters = support_ ? std::max(support_(place), 1) : 1;
   Alternative amended;
   amended.kind = StepKind::kAmended;
   amended.misreading = Misreading::kMissedGateway;
@@ -224,7 +244,7 @@ void Successors::consider_unseen_gateway(GatewayIndex departure,
   amended.position = map_.end_gateway() + inserted;
   amended.change = {MapChange::Kind::kLink, {}, arrival.visit, departure, amended.position};
   amended.log_likelihood =
-      ratio + view.log_likelihood - supporters * options_->log_penalty_missed_gateway;
+      ratio + view.log_likelihood - support(place) * options_->log_penalty_missed_gateway;
   amended.log_likelihood -= penalty_of_amending(amended, departure, amended.position);
   if (is_worth_blaming(amended.log_likelihood)) {
     add(amended, arrival);

@@ -64,6 +64,7 @@ void Successors::at_known_link(GatewayIndex departure, const Arrival& arrival) {
     if (!is_exact || known.log_likelihood < 0.0) {
       consider_unnoticed(departure, arrival);
       consider_inserting(departure, arrival);
+      consider_rejoining(departure, arrival);
     }
   }
   if (map_.one_way_count() > 0) {
@@ -83,10 +84,12 @@ void Successors::at_pending_gateway(GatewayIndex departure, const Arrival& arriv
     list_other_faces(departure, arrival);
   }
   if (is_noisy_) {
-    consider_rejoining(departure, arrival);
     consider_unseen_gateways(departure, arrival);
   }
   consider_new_places(departure, arrival);
+  if (is_noisy_) {
+    consider_rejoining(departure, arrival);
+  }
 }
 
 // Pending gateways out of the departing one's ring: of other parts of the map, and of other faces.
@@ -161,11 +164,6 @@ void Successors::consider_closing(GatewayIndex departure,
   add(closure, arrival);
 }
 
-double Successors::log_prior_of_new_place() const {
-  return options_->log_prior_new_place -
-         (options_->noisy_stars ? options_->log_penalty_unrecognised : 0.0);
-}
-
 /// Some gateway of many matches well by chance: before evidence is asked, each is equally likely.
 double Successors::log_prior_of_closing() const {
   const bool weighs = options_->noisy_stars && evidence_->same_place;
@@ -193,7 +191,7 @@ void Successors::consider_new_places(GatewayIndex departure, const Arrival& arri
     fresh.change = {MapChange::Kind::kPlace, arrival.view->star_id(reading), arrival.visit,
                     departure, number};
     fresh.position = map_.end_gateway() + number;
-    fresh.log_likelihood = log_prior_of_new_place() + log_likelihood_of(view, reading);
+    fresh.log_likelihood = options_->log_prior_new_place + log_likelihood_of(view, reading);
     if (options_->max_places && map_.place_count() >= *options_->max_places) {
       refute(Refutation::kTooManyPlaces, fresh, arrival);
     } else {
@@ -248,43 +246,100 @@ double Successors::asked(SeenGateway known, SeenGateway now) const {
 double Successors::recognition(GatewayIndex target,
                                const ReadingMatch& match,
                                VisitId visit) const {
-  if (!evidence_->same_place) {
-    return 0.0;
-  }
-  const PlaceId place = map_.place_of(target);
-  const VisitId known = map_.first_visit(place);
-  const View& view = experience_->view(visit);
-  const auto ask = [&](int seen_as, int now) { return asked({known, seen_as}, {visit, now}); };
-  if (const int seen_as = seen_number(target); seen_as >= 0) {
-    return ask(seen_as, view.arrival_gateway);
-  }
-  // The first visit missed the gateway of arrival; another one tells as well how the stars lie.
-  for (std::size_t now = 0; now < match.gateway_of_view.size(); ++now) {
-    const int number = match.gateway_of_view[now];
-    const int seen_as = number < 0 ? -1 : seen_number(map_.first_gateway(place) + number);
-    if (seen_as >= 0) {
-      return ask(seen_as, static_cast<int>(now));
-    }
-  }
-  return 0.0;
+  return answers(map_.place_of(target), match.gateway_of_view, visit).all;
 }
 
-/// The gateway's number in the first reading of the visit that made its place known; -1: missed.
-int Successors::seen_number(GatewayIndex at) const {
-  const PlaceId place = map_.place_of(at);
-  const int seen_as = map_.seen_as(at);
-  const ReadingMatcher& first = experience_->matcher(map_.first_visit(place));
-  const View& view = first.view();
-  if (seen_as < 0 || view.others.empty()) {
-    return seen_as;
+/// What the last visits to the place say together.
+/// @param gateway_of_view for each gateway of the visit the place's gateway that it is, or -1
+Successors::Answers Successors::answers(PlaceId place,
+                                        const std::vector<int>& gateway_of_view,
+                                        VisitId visit) const {
+  Answers sum;
+  if (!evidence_->same_place) {
+    return sum;
   }
-  for (int reading = 1; reading < reading_count(view); ++reading) {
-    if (first.star_id(reading) == map_.first_star(place)) {
-      return view.others[static_cast<std::size_t>(reading - 1)]
-          .gateways[static_cast<std::size_t>(seen_as)];
+  int asked_visits = 0;
+  for (std::int32_t index = map_.latest_record(place);
+       index >= 0 && asked_visits < options_->max_visits_compared;
+       index = map_.record(index).previous) {
+    const VisitRecord& record = map_.record(index);
+    const std::optional<GatewayPair> pair =
+        common_gateway(record, map_.star(place), gateway_of_view, visit);
+    if (pair) {
+      const double ratio = asked({record.visit, pair->known}, {visit, pair->now});
+      sum.all += ratio;
+      sum.in_favour += std::max(ratio, 0.0);
+      ++asked_visits;
     }
   }
-  return seen_as;
+  if (asked_visits > 1) {
+    const double worth =
+        independent_answers(asked_visits, options_->evidence_correlation) / asked_visits;
+    sum.all *= worth;
+    sum.in_favour *= worth;
+  }
+  return sum;
+}
+
+Successors::Recognised Successors::likeliest_place(VisitId visit) const {
+  ReadingMatcher& view = experience_->matcher(visit);
+  Recognised likeliest;
+  int asked_gateways = 0;
+  for (PlaceId place{0}; place.value < map_.place_count(); ++place.value) {
+    const StarId star = map_.star(place);
+    for (int number = 0; number < map_.gateway_count(place); ++number) {
+      if (!view.is_exact(star, number)) {
+        continue;
+      }
+      ++asked_gateways;
+      const Answers said = answers(place, view.match(star, number).gateway_of_view, visit);
+      if (likeliest.at == kNoGateway || said.all > likeliest.log_likelihood) {
+        likeliest.at = map_.first_gateway(place) + number;
+        likeliest.log_likelihood = said.all;
+      }
+      likeliest.in_favour = std::max(likeliest.in_favour, said.in_favour);
+    }
+  }
+  const double log_chance = std::log(std::max(asked_gateways, 1));
+  likeliest.log_likelihood -= log_chance;
+  likeliest.in_favour -= log_chance;
+  return likeliest;
+}
+
+/// A gateway that both visits saw, that of arrival if possible; one tells how the stars lie.
+std::optional<Successors::GatewayPair> Successors::common_gateway(
+    const VisitRecord& known,
+    StarId star,
+    const std::vector<int>& gateway_of_view,
+    VisitId visit) const {
+  const ReadingMatch& there = experience_->matcher(known.visit).match(star, known.number);
+  if (!there.is_possible()) {
+    return std::nullopt;
+  }
+  const int gateways = static_cast<int>(gateway_of_view.size());
+  const int arrived = experience_->view(visit).arrival_gateway;
+  for (int turn = 0; turn < gateways; ++turn) {
+    const int now = (arrived + turn) % gateways;
+    const int number = gateway_of_view[static_cast<std::size_t>(now)];
+    const auto seen = std::find(there.gateway_of_view.begin(), there.gateway_of_view.end(), number);
+    if (number >= 0 && seen != there.gateway_of_view.end()) {
+      return GatewayPair{static_cast<int>(seen - there.gateway_of_view.begin()), now};
+    }
+  }
+  return std::nullopt;
+}
+
+/// How many visits saw the star of the place as it is now; one made it known.
+int Successors::support(PlaceId place) const {
+  int agreeing = 0;
+  for (std::int32_t index = map_.latest_record(place); index >= 0;
+       index = map_.record(index).previous) {
+    const VisitRecord& record = map_.record(index);
+    const ReadingMatch& match =
+        experience_->matcher(record.visit).match(map_.star(place), record.number);
+    agreeing += match.is_possible() && match.misreading == Misreading::kNone ? 1 : 0;
+  }
+  return std::max(agreeing, 1);
 }
 
 void Successors::add(Alternative alternative, const Arrival& arrival) {

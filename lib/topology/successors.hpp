@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "topology/evidence.hpp"
@@ -76,16 +77,24 @@ class Successors {
 
   /// Replaces what `found` held. Leaves the map as it was.
   void list(const Situation& situation, Detail detail, std::vector<Alternative>& found);
+  /// From now on the travel to this visit may have gone anywhere, at a penalty.
+  void allow_rejoining(VisitId visit) { rejoining_.insert(visit); }
   /// The robot goes on although nothing explains it: at a new place by an unexplained gateway, or,
   /// where an operator says so, at the place that he names.
   [[nodiscard]] Alternative unexplained(const Situation& situation);
+  /// The gateway of the map, wherever it is, by which the robot came in if evidence is asked alone.
+  struct Recognised {
+    GatewayIndex at = kNoGateway;  ///< None looks like the view.
+    double log_likelihood = 0.0;   ///< Each gateway that looks like it being equally likely before.
+    /// The most that could be said of any if only those visits had been there that say so.
+    double in_favour = 0.0;
+  };
+  [[nodiscard]] Recognised likeliest_place(VisitId visit) const;
 
   /// By Refutation; of all that was considered so far.
   [[nodiscard]] const std::array<std::int64_t, kRefutations>& refuted() const { return refuted_; }
   /// Of these, known links whose view differs.
   [[nodiscard]] std::int64_t links_contradicted() const { return links_contradicted_; }
-  /// How many visits saw the star of a place as it is now; asked before a star is corrected.
-  void set_support(std::function<int(PlaceId)> support) { support_ = std::move(support); }
   /// While a repair search goes on, stars may be misread in any case.
   void set_noisy(bool is_noisy) { is_noisy_ = is_noisy; }
 
@@ -108,6 +117,12 @@ class Successors {
     Misreading misreading = Misreading::kNone;  ///< Of this visit, if the star were as it was.
   };
 
+  /// One gateway in the numbers of two visits.
+  struct GatewayPair {
+    int known = 0;
+    int now = 0;
+  };
+
   void at_known_link(GatewayIndex departure, const Arrival& arrival);
   void at_pending_gateway(GatewayIndex departure, const Arrival& arrival);
   void woken_up(const Arrival& arrival);
@@ -115,7 +130,6 @@ class Successors {
                         GatewayIndex target,
                         double penalty,
                         const Arrival& arrival);
-  [[nodiscard]] double log_prior_of_new_place() const;
   [[nodiscard]] double log_prior_of_closing() const;
   void list_other_faces(GatewayIndex departure, const Arrival& arrival);
   void consider_new_places(GatewayIndex departure, const Arrival& arrival);
@@ -151,6 +165,7 @@ class Successors {
   void consider_inserting(GatewayIndex departure, const Arrival& arrival);
   void consider_unexplained(GatewayIndex departure, const Arrival& arrival);
   void consider_rejoining(GatewayIndex departure, const Arrival& arrival);
+  [[nodiscard]] bool is_recognised() const;
   void consider_unseen_gateways(GatewayIndex departure, const Arrival& arrival);
   void consider_unseen_gateway(GatewayIndex departure,
                                GatewayIndex known,
@@ -169,7 +184,18 @@ class Successors {
   [[nodiscard]] double recognition(GatewayIndex target,
                                    const ReadingMatch& match,
                                    VisitId visit) const;
-  [[nodiscard]] int seen_number(GatewayIndex at) const;
+  struct Answers {
+    double all = 0.0;
+    double in_favour = 0.0;  ///< Of those that say "the same place".
+  };
+  [[nodiscard]] Answers answers(PlaceId place,
+                                const std::vector<int>& gateway_of_view,
+                                VisitId visit) const;
+  [[nodiscard]] std::optional<GatewayPair> common_gateway(const VisitRecord& known,
+                                                          StarId star,
+                                                          const std::vector<int>& gateway_of_view,
+                                                          VisitId visit) const;
+  [[nodiscard]] int support(PlaceId place) const;
   void add(Alternative alternative, const Arrival& arrival);
   void refute(Refutation reason, Alternative alternative, const Arrival& arrival);
 
@@ -178,8 +204,8 @@ class Successors {
   const ExperienceLog* experience_;
   StarCatalogue* stars_;
   WorkingMap& map_;
-  std::function<int(PlaceId)> support_;
   bool is_noisy_;
+  std::set<VisitId> rejoining_;
   std::vector<Alternative>* found_ = nullptr;
   Action action_;
   PathMarks departing_path_;

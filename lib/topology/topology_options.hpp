@@ -29,12 +29,9 @@ struct TopologyOptions {
   /// penalties below. If not, as in the papers, a hypothesis that a view contradicts dies, and a
   /// repair search is made when all are dead.
   bool noisy_stars = false;
-  double log_prior_new_place = -1.0;  ///< Of each place beyond the first. [-1000, 0]
-  /// Of each new place that a travel leads to, if stars may be misread: it may be a known one. As
-  /// evidence is asked about the first visit to a place only, a part of the map that is there twice
-  /// explains as much as one that is there once: this keeps maps simple. Where evidence is asked,
-  /// each closure has the prior of one of all pending gateways. [0, 10000]
-  double log_penalty_unrecognised = 4.0;
+  /// Of each place beyond the first. Where stars may be misread and evidence is asked, each closure
+  /// has the prior of one of all pending gateways. [-1000, 0]
+  double log_prior_new_place = -1.0;
   // Minus the logarithm of how often it happens, and happens in this way rather than another: of
   // every 20 stars one is misread, and may be taken for several kinds; of every 50 one lacks one of
   // several gateways; fewer have one too many.
@@ -47,16 +44,31 @@ struct TopologyOptions {
   /// more than this. [0, 10000]
   double blame_margin = 8.0;
   double recognition_threshold = 2.0;  ///< Evidence above it may overrule a link. [0, 10000]
-  double max_log_evidence = 20.0;      ///< Evidence of same places is cut to it. [0, 1000]
+  double max_log_evidence = 20.0;      ///< Each answer about same places is cut to it. [0, 1000]
+  /// Of the visits to a place so many are compared with a new one, the last ones. [1, 1000]
+  int max_visits_compared = 4;
+  /// Between any two answers about one place: what one comparison gets wrong, another may get wrong
+  /// for the same reason. 0: answers are independent; 1: one is worth as much as many. [0, 1]
+  double evidence_correlation = 0.5;
 
   Preference preference = Preference::kPosterior;
   /// Live hypotheses: the best ones, judged before the new layouts are known. The others wait and
   /// are taken up again when they come to be among the best. [1, 10000000]
-  int max_hypotheses = 200;
+  int max_hypotheses = 64;
+  /// Where more are good enough to live, so many that part from the best one at the same visit are
+  /// preferred to those that part from it elsewhere: else old ambiguities, multiplied, would take
+  /// all the room. [1, 10000000]
+  int max_alike = 4;
+  /// By posterior: a hypothesis that is less likely than the best live one by more than this waits.
+  /// [0, 1e6]
+  double live_margin = 30.0;
   /// Memory of nodes and leaves after each arrival: when it is full, the worse half of those that
   /// wait is given up, and again, then that of the live ones, and with them the guarantee.
   /// [65536, 1e12]
   std::int64_t max_bytes = 64 << 20;
+  /// What one that waits is taken to lose per visit: alternatives to the last steps are tried
+  /// before those to old ones. [0, 100]
+  double log_loss_waiting = 0.2;
   int max_revivals = 100;          ///< Steps of waiting hypotheses per arrival. [0, 10000000]
   int max_repair_steps = 20000;    ///< Steps of one repair search. [0, 10000000]
   int max_broken_hypotheses = 32;  ///< How many survive an arrival nothing explains. [1, 10000000]
@@ -67,5 +79,11 @@ struct TopologyOptions {
 
 /// Names every field that is out of range, with its value.
 Status validate(const TopologyOptions& options);
+
+/// How many independent answers so many are worth, any two of which have this correlation: that of
+/// their mean is as sharp. @pre answers >= 1; correlation in [0, 1]
+[[nodiscard]] double independent_answers(int answers, double correlation);
+/// Of all the visits with which one is compared.
+[[nodiscard]] double most_independent_answers(const TopologyOptions& options);
 
 }  // namespace cairn

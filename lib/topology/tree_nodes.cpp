@@ -8,7 +8,8 @@ namespace cairn {
 
 NodeIndex TreeNodes::add(NodeIndex parent, TreeNode node) {
   node.parent = parent;
-  node.id = HypothesisId{next_id_++};
+  node.serial = next_serial_++;
+  node.id = node.is_same_map ? of(parent).id : HypothesisId{next_id_++};
   node.references = 0;
   node.depth = 0;
   if (parent != kNoNode) {
@@ -61,7 +62,27 @@ void MapCursor::start(NodeIndex root) {
   CAIRN_CHECK(applied_.empty());
   const TreeNode& node = (*nodes_)[root];
   map_.start(node.change.star, node.change.visit);
-  applied_.push_back({node.id, node.change});
+  if (records_visits_) {
+    map_.record_visit(node.position, node.visit);
+  }
+  applied_.push_back({node.serial, node.change, {}});
+}
+
+void MapCursor::carry_out(const TreeNode& node) {
+  map_.apply(node.change);
+  PlaceId visited;
+  if (records_visits_ && !node.is_part) {
+    visited = map_.place_of(node.position);
+    map_.record_visit(node.position, node.visit);
+  }
+  applied_.push_back({node.serial, node.change, visited});
+}
+
+void MapCursor::take_back(const Applied& last) {
+  if (last.visited.is_valid()) {
+    map_.forget_last_visit(last.visited);
+  }
+  map_.undo(last.change);
 }
 
 WorkingMap& MapCursor::at(NodeIndex node) {
@@ -69,18 +90,16 @@ WorkingMap& MapCursor::at(NodeIndex node) {
   std::size_t depth = 0;
   for (NodeIndex wanted = node;; wanted = (*nodes_)[wanted].parent) {
     depth = static_cast<std::size_t>((*nodes_)[wanted].depth);
-    if (depth < applied_.size() && applied_[depth].id == (*nodes_)[wanted].id) {
+    if (depth < applied_.size() && applied_[depth].serial == (*nodes_)[wanted].serial) {
       break;
     }
     downward_.push_back(wanted);
   }
   for (; applied_.size() > depth + 1; applied_.pop_back()) {
-    map_.undo(applied_.back().change);
+    take_back(applied_.back());
   }
   for (auto next = downward_.rbegin(); next != downward_.rend(); ++next) {
-    const TreeNode& below = (*nodes_)[*next];
-    map_.apply(below.change);
-    applied_.push_back({below.id, below.change});
+    carry_out((*nodes_)[*next]);
   }
   return map_;
 }

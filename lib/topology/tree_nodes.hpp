@@ -15,16 +15,18 @@ namespace cairn {
 using NodeIndex = std::uint32_t;
 constexpr NodeIndex kNoNode = std::numeric_limits<NodeIndex>::max();
 
-/// How one map grew from another. Travels along known links leave no node, unless they were
-/// misread.
+/// How one map grew from another, or what became of the robot in it. Where visits are not
+/// remembered, travels along known links leave no node, unless they were misread.
 struct TreeNode {
   MapChange change;
   StepKind kind = StepKind::kStart;
-  bool is_part = false;  ///< Its child, of the same visit, completes the step.
+  bool is_part = false;      ///< Its child, of the same visit, completes the step.
+  bool is_same_map = false;  ///< A travel along a known link: the map is its parent's, and the id.
   NodeIndex parent = kNoNode;
   std::int32_t depth = 0;        ///< Nodes above it.
   std::uint32_t references = 0;  ///< Children, and hypotheses that stand on it.
   HypothesisId id;
+  std::uint32_t serial = 0;            ///< Tells apart nodes that had the same place in the list.
   VisitId visit;                       ///< At which the map grew so.
   GatewayIndex position = kNoGateway;  ///< The gateway by which the robot came in, after the step.
   float log_likelihood = 0.0F;         ///< Of the step.
@@ -38,7 +40,7 @@ class TreeNodes {
  public:
   /// The first node. @pre there is none
   NodeIndex add_root(const TreeNode& node) { return add(kNoNode, node); }
-  /// The parent, id and depth of the node are filled in. Nobody holds it yet.
+  /// The parent, id, serial and depth of the node are filled in. Nobody holds it yet.
   NodeIndex add(NodeIndex parent, TreeNode node);
   /// A hypothesis stands on the node from now on.
   void hold(NodeIndex node) { ++of(node).references; }
@@ -83,6 +85,7 @@ class TreeNodes {
   NodeIndex first_free_ = kNoNode;                   // Their `parent` is the next free one.
   std::size_t count_ = 0;
   std::int32_t next_id_ = 0;
+  std::uint32_t next_serial_ = 0;
 };
 
 /// A working map that moves about in the tree: it takes back the changes up to the common ancestor,
@@ -90,8 +93,12 @@ class TreeNodes {
 class MapCursor {
  public:
   /// @param nodes, stars outlive the cursor
-  MapCursor(const TreeNodes& nodes, const StarCatalogue& stars, WorkingMap::Rings rings)
-      : nodes_(&nodes), map_(stars, rings) {}
+  /// @param records_visits the map remembers who visited its places
+  MapCursor(const TreeNodes& nodes,
+            const StarCatalogue& stars,
+            WorkingMap::Rings rings,
+            bool records_visits)
+      : nodes_(&nodes), map_(stars, rings), records_visits_(records_visits) {}
 
   /// The map of the root. @pre not started
   void start(NodeIndex root);
@@ -104,12 +111,17 @@ class MapCursor {
 
  private:
   struct Applied {
-    HypothesisId id;
+    std::uint32_t serial = 0;
     MapChange change;
+    PlaceId visited;  ///< Whose record is to be forgotten again; none.
   };
+
+  void carry_out(const TreeNode& node);
+  void take_back(const Applied& last);
 
   const TreeNodes* nodes_;
   WorkingMap map_;
+  bool records_visits_;
   std::vector<Applied> applied_;     // By depth.
   std::vector<NodeIndex> downward_;  // Reused.
 };

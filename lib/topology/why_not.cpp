@@ -23,9 +23,10 @@ class WhatIf {
 
   enum class Outcome { kExplained, kRefuted, kUnknown };
 
-  void take(const Alternative& step) {
+  void take(const Alternative& step, VisitId visit) {
     lineage_.map().apply(step.amendment);
     lineage_.map().apply(step.change);
+    lineage_.map().record_visit(step.position, visit);
     position_ = step.position;
     log_likelihood_ += step.log_likelihood;
   }
@@ -47,8 +48,8 @@ class WhatIf {
       Level& level = levels.back();
       level.taken = level.untried.back();
       level.untried.pop_back();
-      take(level.taken);
       next.value = first.value + static_cast<std::int32_t>(levels.size());
+      take(level.taken, VisitId{next.value - 1});
     }
     return next > last ? Outcome::kExplained : Outcome::kUnknown;
   }
@@ -86,6 +87,7 @@ class WhatIf {
     return level;
   }
   void take_back(const Level& level) {
+    lineage_.map().forget_last_visit(lineage_.map().place_of(position_));
     lineage_.map().undo(level.taken.change);
     lineage_.map().undo(level.taken.amendment);
     position_ = level.position;
@@ -140,7 +142,7 @@ HypothesisTree::Fate HypothesisTree::why_not(HypothesisId live,
   }
   WhatIf other(engine.options, engine.evidence, engine.experience, engine.stars,
                std::move(lineage));
-  other.take(all[alternative]);
+  other.take(all[alternative], visit);
   const auto outcome =
       other.explain(VisitId{visit.value + 1}, last_visit(), engine.options.max_repair_steps);
   if (outcome == WhatIf::Outcome::kRefuted) {

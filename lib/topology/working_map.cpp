@@ -54,7 +54,18 @@ void WorkingMap::undo(const MapChange& change) {
 
 std::size_t WorkingMap::bytes() const {
   return gateways_.capacity() * sizeof(Gateway) + places_.capacity() * sizeof(Place) +
-         saved_.capacity() * sizeof(Saved);
+         saved_.capacity() * sizeof(Saved) + records_.capacity() * sizeof(VisitRecord);
+}
+
+void WorkingMap::record_visit(GatewayIndex position, VisitId visit) {
+  Place& place = places_[place_of(position).index()];
+  records_.push_back({visit, position - place.first_gateway, place.latest_record});
+  place.latest_record = static_cast<std::int32_t>(records_.size()) - 1;
+}
+
+void WorkingMap::forget_last_visit(PlaceId place) {
+  places_[place.index()].latest_record = records_.back().previous;
+  records_.pop_back();
 }
 
 // The new gateways form a ring of their own.
@@ -62,12 +73,11 @@ GatewayIndex WorkingMap::append_place(StarId star, VisitId visit, std::int32_t c
   const auto first = static_cast<GatewayIndex>(gateways_.size());
   const auto place = static_cast<std::int32_t>(places_.size());
   const int count = stars_->gateway_count(star);
-  places_.push_back({star, first, component, visit, star, visit});
+  places_.push_back({star, first, component, visit, visit, -1});
   gateways_.resize(gateways_.size() + static_cast<std::size_t>(count));
   for (int number = 0; number < count; ++number) {
     Gateway& gateway = of(first + number);
     gateway.place = place;
-    gateway.seen_as = number;
     gateway.next = first + (number + 1 == count ? 0 : number + 1);
     gateway.previous = first + (number == 0 ? count - 1 : number - 1);
   }

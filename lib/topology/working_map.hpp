@@ -39,6 +39,13 @@ struct MapChange {
          change.kind == MapChange::Kind::kInsertPlace;
 }
 
+/// A visit to a place of a map.
+struct VisitRecord {
+  VisitId visit;
+  std::int32_t number = 0;     ///< Of the gateway of arrival, in the star that the place has now.
+  std::int32_t previous = -1;  ///< The record of the visit before to the same place; -1: none.
+};
+
 /// One topological map as a search changes it, step by step forward and back: places, links, and
 /// the pending gateways of each face as a ring. Every step and its undo take constant time (plus
 /// the gateways of the place added). Symbols only. The robot's position is not part of it.
@@ -62,6 +69,19 @@ class WorkingMap {
   /// Takes back the last change that is not taken back yet. @pre it is this one
   void undo(const MapChange& change);
 
+  /// The robot has come to a place by this gateway.
+  void record_visit(GatewayIndex position, VisitId visit);
+  /// Takes back the last record that is not taken back yet. @pre it is of this place
+  void forget_last_visit(PlaceId place);
+  /// Of the last visit recorded; -1: none is.
+  [[nodiscard]] std::int32_t latest_record(PlaceId place) const {
+    return places_[place.index()].latest_record;
+  }
+  /// Valid until the map is changed.
+  [[nodiscard]] const VisitRecord& record(std::int32_t index) const {
+    return records_[static_cast<std::size_t>(index)];
+  }
+
   [[nodiscard]] int place_count() const { return static_cast<int>(places_.size()); }
   /// The index that the first gateway of the next place will have.
   [[nodiscard]] GatewayIndex end_gateway() const {
@@ -84,8 +104,6 @@ class WorkingMap {
   [[nodiscard]] VisitId first_visit(PlaceId place) const {
     return places_[place.index()].first_visit;
   }
-  /// The star that the first visit showed.
-  [[nodiscard]] StarId first_star(PlaceId place) const { return places_[place.index()].first_star; }
   [[nodiscard]] int component(PlaceId place) const { return places_[place.index()].component; }
   [[nodiscard]] int gateway_count(PlaceId place) const {
     return stars_->gateway_count(places_[place.index()].star);
@@ -110,8 +128,6 @@ class WorkingMap {
   /// The gateway straight on across the place; kNoGateway: the fragment terminates.
   [[nodiscard]] GatewayIndex through(GatewayIndex at) const { return of(at).through; }
   [[nodiscard]] ViewClassId view_class(GatewayIndex at) const { return {of(at).view_class}; }
-  /// Its number in the star that the place had when it was added; -1: a later star added it.
-  [[nodiscard]] int seen_as(GatewayIndex at) const { return of(at).seen_as; }
   /// The pending gateway that follows clockwise in the ring. @pre at is pending
   [[nodiscard]] GatewayIndex next_in_ring(GatewayIndex at) const { return of(at).next; }
   [[nodiscard]] GatewayIndex previous_in_ring(GatewayIndex at) const { return of(at).previous; }
@@ -129,15 +145,14 @@ class WorkingMap {
     GatewayIndex next = kNoGateway;  ///< In the ring; kept while the gateway is out of it.
     GatewayIndex previous = kNoGateway;
     std::int32_t view_class = -1;
-    std::int32_t seen_as = -1;
   };
   struct Place {
     StarId star;
     GatewayIndex first_gateway = 0;
     std::int32_t component = 0;
     VisitId first_visit;
-    StarId first_star;
     VisitId seen_at;
+    std::int32_t latest_record = -1;
   };
   /// What a rare change overwrote.
   struct Saved {
@@ -170,6 +185,8 @@ class WorkingMap {
   void change_star(const MapChange& change);
   void restore_star(const MapChange& change);
   void move_gateway(GatewayIndex from, GatewayIndex to);
+  void renumber_records(Place& place, int before, const MapChange& change);
+  void restore_records(Place& place);
   void insert_place(const MapChange& change);
   void take_out_place(const MapChange& change);
 
@@ -178,6 +195,7 @@ class WorkingMap {
   std::vector<Gateway> gateways_;
   std::vector<Place> places_;
   std::vector<Saved> saved_;
+  std::vector<VisitRecord> records_;
   int path_count_ = 0;
   int pending_count_ = 0;
   int one_way_count_ = 0;

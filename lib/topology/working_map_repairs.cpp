@@ -115,7 +115,6 @@ void WorkingMap::move_gateway(GatewayIndex from, GatewayIndex to) {
   const GatewayIndex end = of(from).leads_to;
   const bool was_linked = is_linked(from);
   of(to).leads_to = end;
-  of(to).seen_as = of(from).seen_as;
   if (was_linked) {
     of(end).leads_to = to;
   }
@@ -131,6 +130,38 @@ void WorkingMap::move_gateway(GatewayIndex from, GatewayIndex to) {
   of(to).next = is_alone ? to : of(from).next;
   of(to).previous = is_alone ? to : of(from).previous;
   rejoin_ring(to);
+}
+
+/// A gateway more or less moves the numbers of those clockwise of it. Who looked into one that
+/// turns out not to exist, carried there, is said to have looked into the next one. The records are
+/// written anew, so that the undo finds the old ones.
+void WorkingMap::renumber_records(Place& place, int before, const MapChange& change) {
+  const int after = stars_->gateway_count(change.star);
+  saved_.push_back({{}, place.latest_record});
+  saved_.push_back({{}, static_cast<std::int32_t>(records_.size())});
+  if (after == before) {
+    return;
+  }
+  const auto first_new = records_.size();
+  for (std::int32_t index = place.latest_record; index >= 0; index = record(index).previous) {
+    VisitRecord moved = record(index);
+    const int first_moved = change.target + (after < before ? 1 : 0);
+    moved.number += moved.number >= first_moved ? after - before : 0;
+    moved.number %= after;
+    moved.previous = static_cast<std::int32_t>(records_.size()) + 1;
+    records_.push_back(moved);
+  }
+  if (records_.size() > first_new) {
+    records_.back().previous = -1;
+    place.latest_record = static_cast<std::int32_t>(first_new);
+  }
+}
+
+void WorkingMap::restore_records(Place& place) {
+  records_.resize(static_cast<std::size_t>(saved_.back().value));
+  saved_.pop_back();
+  place.latest_record = saved_.back().value;
+  saved_.pop_back();
 }
 
 // The place's gateways move to the end of the list, one more or one less of them; those left behind
@@ -167,6 +198,7 @@ void WorkingMap::change_star(const MapChange& change) {
   place.star = change.star;
   place.seen_at = change.visit;
   place.first_gateway = first;
+  renumber_records(place, before, change);
   fill_from_star(first, change.star);
   if (extra >= 0) {
     enter_ring(first + extra);
@@ -178,6 +210,7 @@ void WorkingMap::restore_star(const MapChange& change) {
   Place& place = places_[id.index()];
   const int after = stars_->gateway_count(change.star);
   const GatewayIndex first = place.first_gateway;
+  restore_records(place);
   const GatewayIndex old_first = saved_.back().value;
   saved_.pop_back();
   const StarId old_star{saved_.back().value};

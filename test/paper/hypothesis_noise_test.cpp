@@ -82,7 +82,6 @@ TEST(HypothesisNoise, MisreadStarsCostFewPlacesAndNoFalseClosures) {
     evidence.same_place = [&](SeenGateway known, SeenGateway now) { return matcher(known, now); };
     TopologyOptions options;
     options.noisy_stars = true;
-    options.max_hypotheses = 200;
     HypothesisTree tree(options, evidence);
     ASSERT_TRUE(tree.start(walk.start).ok());
     std::set<int> true_places = {walk.truth.front().first};

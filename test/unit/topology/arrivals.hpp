@@ -26,6 +26,7 @@ class Arrivals {
     experience_.add({}, {star, arrival_gateway, VisitId{0}}, false);
     map_.start(experience_.matcher(VisitId{0}).star_id(0), VisitId{0});
     position_ = arrival_gateway;
+    map_.record_visit(position_, VisitId{0});
   }
   // The successors point to what lies beside them.
   Arrivals(const Arrivals&) = delete;
@@ -42,6 +43,7 @@ class Arrivals {
   /// Along a known link.
   Arrivals& follow(int turn, const Star& star, int arrival_gateway) {
     position_ = map_.leads_to(arrive(turn, star, arrival_gateway));
+    map_.record_visit(position_, VisitId{experience_.size() - 1});
     return *this;
   }
   /// At a new place although the gateway leads elsewhere.
@@ -66,6 +68,11 @@ class Arrivals {
                      Successors::Detail::kAll, found);
     return found;
   }
+  /// The same arrival again, which may have led anywhere.
+  std::vector<Alternative> of_last_anywhere() {
+    successors_.allow_rejoining(VisitId{experience_.size() - 1});
+    return of_last();
+  }
   [[nodiscard]] GatewayRef position() const { return map_.ref(position_); }
   [[nodiscard]] const WorkingMap& map() const { return map_; }
   /// The map after this alternative.
@@ -86,6 +93,7 @@ class Arrivals {
     const GatewayIndex end = map_.end_gateway();
     map_.apply({kind, experience_.matcher(visit).star_id(0), visit, departure, target});
     position_ = kind == MapChange::Kind::kLink ? target : end + target;
+    map_.record_visit(position_, visit);
     return *this;
   }
 

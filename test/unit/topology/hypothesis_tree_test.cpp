@@ -146,6 +146,7 @@ TEST(HypothesisTree, LayoutIsEvaluatedOnceForEachLeafNearTheBest) {
   TopologyOptions options;
   options.preference = Preference::kPosterior;
   options.layout_margin = 5.0;
+  options.live_margin = 100.0;
   int evaluated = 0;
   Evidence evidence;
   // Fits only if no loop of less than four places is closed.
@@ -193,8 +194,8 @@ TEST(HypothesisTree, TheBudgetReportsHowManyBeganToWaitAndTheGapToThem) {
   EXPECT_EQ(report.waiting, 1);
   EXPECT_EQ(report.leaves, 1);
   EXPECT_EQ(robot.best().place_count, 2);
-  // The new place waits in its parent, which is as likely as the closure.
-  EXPECT_DOUBLE_EQ(robot.tree().proven_gap(), 0.0);
+  // The new place waits in its parent, which knows how likely it is.
+  EXPECT_DOUBLE_EQ(robot.tree().proven_gap(), -options.log_prior_new_place);
 }
 
 TEST(HypothesisTree, SameExperienceGivesTheSameTree) {

@@ -9,6 +9,7 @@ namespace cairn::test {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::Pair;
 
 constexpr VisitId visit(int number) {
   return {number};
@@ -44,6 +45,15 @@ struct Told {
   NodeIndex last = kNoNode;
 };
 
+/// Visits to a place with the number of the gateway of arrival, the latest first.
+std::vector<std::pair<int, int>> recorded(const WorkingMap& map, PlaceId place) {
+  std::vector<std::pair<int, int>> visits;
+  for (std::int32_t at = map.latest_record(place); at >= 0; at = map.record(at).previous) {
+    visits.emplace_back(map.record(at).visit.value, map.record(at).number);
+  }
+  return visits;
+}
+
 TEST(Lineage, FollowsStepsAndKnownLinksThatLeftNoNode) {
   Told told;
   const StarId seen = told.tell(0, tee(), 2);
@@ -63,8 +73,8 @@ TEST(Lineage, FollowsStepsAndKnownLinksThatLeftNoNode) {
   const GatewayRef end{PlaceId{0}, 0};
   const GatewayRef arm{PlaceId{1}, 2};
   EXPECT_THAT(lineage.arrivals(), ElementsAre(end, arm, end, arm));
-  EXPECT_EQ(lineage.support(PlaceId{0}), 2);
-  EXPECT_EQ(lineage.support(PlaceId{1}), 2);
+  EXPECT_THAT(recorded(lineage.map(), PlaceId{0}), ElementsAre(Pair(2, 0), Pair(0, 0)));
+  EXPECT_THAT(recorded(lineage.map(), PlaceId{1}), ElementsAre(Pair(3, 2), Pair(1, 2)));
 }
 
 TEST(Lineage, RenumbersEarlierArrivalsWhenAStarIsCorrected) {
@@ -83,11 +93,12 @@ TEST(Lineage, RenumbersEarlierArrivalsWhenAStarIsCorrected) {
     lineage.advance();
   }
   EXPECT_THAT(lineage.arrivals()[1], (GatewayRef{PlaceId{1}, 1}));
-  EXPECT_EQ(lineage.support(PlaceId{1}), 1);
+  EXPECT_THAT(recorded(lineage.map(), PlaceId{1}), ElementsAre(Pair(1, 1)));
   lineage.advance();
   EXPECT_THAT(lineage.arrivals()[1], (GatewayRef{PlaceId{1}, 2}));
   EXPECT_EQ(lineage.map().star(PlaceId{1}), better);
-  EXPECT_EQ(lineage.support(PlaceId{1}), 1) << "the last visit alone saw the stem";
+  EXPECT_THAT(recorded(lineage.map(), PlaceId{1}), ElementsAre(Pair(3, 0), Pair(1, 2)))
+      << "the stem has taken its number among the gateways of earlier visits, too";
   EXPECT_EQ(lineage.position(), 4);
 }
 

@@ -16,7 +16,6 @@ using Considered = HypothesisTree::Considered;
 TopologyOptions noisy() {
   TopologyOptions options;
   options.noisy_stars = true;
-  options.log_penalty_unrecognised = 0.0;  // These worlds are small and seen once.
   return options;
 }
 
@@ -221,7 +220,6 @@ TEST(NoisyStars, TheSecondReadingMayTurnOutRightInTheStrictWorldToo) {
     SCOPED_TRACE(is_noisy);
     TopologyOptions options;
     options.noisy_stars = is_noisy;
-    options.log_penalty_unrecognised = 0.0;
     Traveller robot(dead_end(), 0, options);
     const ExtendReport both = robot.travel(0, corner_or_tee());
     EXPECT_EQ(both.count(StepKind::kNewPlace), 2);

@@ -118,11 +118,14 @@ inline std::vector<int> everything_about(const WorkingMap& map) {
   for (PlaceId place{0}; place.value < map.place_count(); ++place.value) {
     all.insert(all.end(),
                {map.star(place).value, map.seen_at(place).value, map.first_visit(place).value,
-                map.first_star(place).value, map.component(place), map.first_gateway(place)});
+                map.component(place), map.first_gateway(place)});
+    for (std::int32_t at = map.latest_record(place); at >= 0; at = map.record(at).previous) {
+      all.insert(all.end(), {map.record(at).visit.value, map.record(at).number});
+    }
     for (int number = 0; number < map.gateway_count(place); ++number) {
       const GatewayIndex at = map.gateway({place, number});
       all.insert(all.end(), {map.place_of(at).value, map.leads_to(at), map.through(at),
-                             map.view_class(at).value, map.seen_as(at)});
+                             map.view_class(at).value});
       if (map.is_pending(at)) {
         all.insert(all.end(), {map.next_in_ring(at), map.previous_in_ring(at)});
       }

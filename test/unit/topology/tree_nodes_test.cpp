@@ -78,9 +78,11 @@ TEST(TreeNodes, KnowTheBranchAndWhereTwoMeet) {
 /// A tree that grows by changes of every kind and loses leaves, all drawn.
 struct DrawnTree {
   DrawnTree(WorkingMap::Rings chosen, unsigned seed)
-      : random(seed), rings(chosen), changes(stars), cursor(nodes, stars, chosen) {
+      : random(seed), rings(chosen), changes(stars), cursor(nodes, stars, chosen, true) {
     TreeNode root;
     root.change = {MapChange::Kind::kNothing, changes.any_star(random), VisitId{0}, -1, -1};
+    root.visit = VisitId{0};
+    root.position = 0;
     leaves = {nodes.add_root(root)};
     nodes.hold(leaves[0]);
     cursor.start(leaves[0]);
@@ -92,10 +94,19 @@ struct DrawnTree {
     // Mostly one of the youngest, so that branches become long.
     const std::size_t back = 1 + random() % std::min<std::size_t>(leaves.size(), 4);
     const NodeIndex parent = random() % 8 == 0 ? any() : leaves[leaves.size() - back];
-    TreeNode node;
-    node.change = changes.draw(cursor.at(parent), VisitId{++visits}, random);
-    leaves.push_back(nodes.add(parent, node));
+    leaves.push_back(nodes.add(parent, drawn(cursor.at(parent), VisitId{++visits})));
     nodes.hold(leaves.back());
+  }
+  /// A change, and a visit to any gateway of the map that comes of it.
+  TreeNode drawn(WorkingMap& map, VisitId visit) {
+    TreeNode node;
+    node.visit = visit;
+    node.change = changes.draw(map, visit, random);
+    map.apply(node.change);
+    const PlaceId place{random_below(map.place_count(), random)};
+    node.position = map.gateway({place, random_below(map.gateway_count(place), random)});
+    map.undo(node.change);
+    return node;
   }
   void prune() {
     if (leaves.size() > 20) {
@@ -112,6 +123,7 @@ struct DrawnTree {
       } else {
         map.apply(nodes[at].change);
       }
+      map.record_visit(nodes[at].position, nodes[at].visit);
     }
     return map;
   }
@@ -147,11 +159,7 @@ TEST(MapCursor, StandsOnNodesThatWereForgottenMeanwhile) {
   const NodeIndex root = tree.leaves[0];
   tree.nodes.hold(root);  // For itself, as it is a leaf too.
   for (int lap = 0; lap < 50; ++lap) {
-    const NodeIndex parent = tree.nodes.add(root, [&] {
-      TreeNode node;
-      node.change = tree.changes.draw(tree.cursor.at(root), VisitId{1}, tree.random);
-      return node;
-    }());
+    const NodeIndex parent = tree.nodes.add(root, tree.drawn(tree.cursor.at(root), VisitId{1}));
     tree.nodes.hold(parent);
     tree.cursor.at(parent);
     tree.nodes.release(parent);  // Its place goes to the next one, the cursor still there.
