@@ -46,6 +46,14 @@ void CorrelativeSearch::prepare(const DistanceField& walls,
   }
 }
 
+std::size_t CorrelativeSearch::memory_bytes() const {
+  std::size_t bytes = points_.capacity() * sizeof(Cell) + open_.capacity() * sizeof(Candidate);
+  for (const std::vector<std::uint8_t>& level : pyramid_) {
+    bytes += level.capacity();
+  }
+  return bytes;
+}
+
 void CorrelativeSearch::take_walls(const DistanceField& walls, double hit_sigma_m, Cell low) {
   std::array<std::uint8_t, DistanceField::kFar + 1> likelihood{};
   const double sigma_cells = hit_sigma_m / geometry_.cell_m;

@@ -46,6 +46,8 @@ class CorrelativeSearch {
   [[nodiscard]] SearchResult find(const std::vector<SurfacePoint>& points,
                                   const SearchWindow& window);
 
+  [[nodiscard]] std::size_t memory_bytes() const;
+
  private:
   struct Candidate {
     std::int32_t angle = 0;

@@ -94,6 +94,12 @@ LocalMapper::LocalMapper(const LpmOptions& options)
 }
 
 LocalFix LocalMapper::absorb(const JoinedScan& joined) {
+  const LocalFix fix = locate(joined);
+  take_up(joined.scan, fix);
+  return fix;
+}
+
+LocalFix LocalMapper::locate(const JoinedScan& joined) {
   matcher_.take(joined.scan);
   LocalFix fix;
   fix.time = joined.scan.time;
@@ -118,7 +124,6 @@ LocalFix LocalMapper::absorb(const JoinedScan& joined) {
     }
   }
   advance(joined, fix);
-  draw(joined.scan, fix.note);
   return fix;
 }
 
@@ -215,27 +220,33 @@ void LocalMapper::advance(const JoinedScan& joined, const LocalFix& fix) {
   refusals_ = is_refused(fix.note) ? refusals_ + 1 : 0;
 }
 
-void LocalMapper::draw(const LaserScan& scan, FixNote note) {
+bool LocalMapper::take_up(const LaserScan& scan, const LocalFix& fix) {
   const Pose2 since = T_lpm_drawn_.inverse() * T_lpm_robot_;
   bool is_due = !is_started_ || since.translation().norm() >= options_.insert_every_m ||
                 std::abs(since.theta()) >= options_.insert_every_rad;
-  if (note == FixNote::kBlockedSensor) {
-    return;
+  if (fix.note == FixNote::kBlockedSensor) {
+    return false;
   }
-  if (note == FixNote::kContradiction) {
+  if (fix.note == FixNote::kContradiction) {
     is_due = refusals_ >= options_.refusals_before_restart;
     if (is_due) {
       map_.clear();
+      ++restarts_;
     }
   }
   if (!is_due) {
-    return;
+    return false;
   }
   map_.insert(scan, T_lpm_robot_, travel_m_);
   T_lpm_drawn_ = T_lpm_robot_;
   uncertainty_ = diagonal(kLeastSigma_m, kLeastSigma_m, kLeastSigma_rad);
   refusals_ = 0;
   is_started_ = true;
+  return true;
+}
+
+std::size_t LocalMapper::memory_bytes() const {
+  return map_.memory_bytes() + matcher_.memory_bytes();
 }
 
 void LocalMapper::restore(const LaserScan& scan,

@@ -29,6 +29,7 @@ class ScanMatcher {
   /// not change until all matches of this scan are done.
   void take(const LaserScan& scan);
   [[nodiscard]] bool is_blocked() const;
+  [[nodiscard]] std::size_t memory_bytes() const { return search_.memory_bytes(); }
 
   /// @pre the covariance of the prediction is positive definite
   [[nodiscard]] ScanMatch match(const ScrollingMap& map, const GaussianPose& T_lpm_robot_predicted);

@@ -65,6 +65,11 @@ void ScrollingMap::insert(const LaserScan& scan, const Pose2& T_lpm_robot, doubl
   renew_walls();
 }
 
+std::size_t ScrollingMap::memory_bytes() const {
+  return grid_.cells().size() * (sizeof(OccupancyGrid::LogOdds) + 2 * sizeof(std::uint8_t)) +
+         seen_travel_m_.size() * sizeof(double);
+}
+
 void ScrollingMap::clear() {
   std::fill(grid_.cells().begin(), grid_.cells().end(), OccupancyGrid::LogOdds{0});
   walls_.clear();

@@ -35,6 +35,7 @@ class ScrollingMap {
   /// @param travel_m how far the robot has come, from any origin, never decreasing
   void insert(const LaserScan& scan, const Pose2& T_lpm_robot, double travel_m);
   void clear();
+  [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
   void scroll_to(const Vector2d& p_lpm);
