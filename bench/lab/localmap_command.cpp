@@ -121,7 +121,7 @@ void print(const LocalmapRun& run, const std::optional<RelationReport>& report, 
 
 std::string trajectory_of(const LocalmapRun& run) {
   std::string text = "# t x y theta\n";
-  for (const TrackedScan& scan : run.track) {
+  for (const TrackedPose& scan : run.poses) {
     std::array<char, 128> line{};
     const Pose2& pose = scan.T_lpm_robot;
     const int length = std::snprintf(line.data(), line.size(), "%.6f %.6f %.6f %.7f\n", scan.time_s,
@@ -140,7 +140,7 @@ int track(const LocalmapRequest& request, const Streams& streams) {
   const LocalmapRun run = run_localmap(request.log, options);
   std::optional<RelationReport> report;
   if (!request.relations_file.empty()) {
-    report = judge(relations, run.track);
+    report = judge(relations, run.poses);
   }
   if (request.as_json) {
     streams.out << json_of(run, report).dump(2) << '\n';

@@ -35,7 +35,7 @@ Frame frame_of(const LocalmapRun& run) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   };
-  for (const TrackedScan& scan : run.track) {
+  for (const TrackedPose& scan : run.track) {
     take_in(scan.T_lpm_robot.translation());
   }
   for (const Vector2d& wall : run.walls_lpm) {

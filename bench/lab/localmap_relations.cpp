@@ -6,6 +6,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <tuple>
 
 #include "clients/common/failure.hpp"
 
@@ -24,11 +25,11 @@ struct RelationError {
 };
 
 /// The scan nearest in time, the earlier one of two that are as near.
-const TrackedScan* scan_at(const std::vector<TrackedScan>& track, double time_s) {
+const TrackedPose* scan_at(const std::vector<TrackedPose>& track, double time_s) {
   const auto later =
       std::upper_bound(track.begin(), track.end(), time_s,
-                       [](double time, const TrackedScan& scan) { return time < scan.time_s; });
-  const TrackedScan* nearest = nullptr;
+                       [](double time, const TrackedPose& scan) { return time < scan.time_s; });
+  const TrackedPose* nearest = nullptr;
   if (later != track.begin()) {
     nearest = &*std::prev(later);
   }
@@ -114,14 +115,14 @@ std::vector<Relation> read_relations(const std::filesystem::path& file) {
   return relations;
 }
 
-RelationReport judge(const std::vector<Relation>& relations, std::vector<TrackedScan> track) {
+RelationReport judge(const std::vector<Relation>& relations, std::vector<TrackedPose> track) {
   std::stable_sort(track.begin(), track.end(),
-                   [](const TrackedScan& a, const TrackedScan& b) { return a.time_s < b.time_s; });
+                   [](const TrackedPose& a, const TrackedPose& b) { return a.time_s < b.time_s; });
   RelationReport report;
   std::vector<RelationError> errors;
   for (const Relation& relation : relations) {
-    const TrackedScan* const from = scan_at(track, relation.from_s);
-    const TrackedScan* const to = scan_at(track, relation.to_s);
+    const TrackedPose* const from = scan_at(track, relation.from_s);
+    const TrackedPose* const to = scan_at(track, relation.to_s);
     if (from == nullptr || to == nullptr) {
       ++report.missing;
       continue;

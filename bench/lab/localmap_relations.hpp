@@ -43,6 +43,6 @@ struct RelationReport {
 /// Source: Kuemmerle et al., "On measuring the accuracy of SLAM algorithms", Autonomous Robots
 /// 2009.
 [[nodiscard]] RelationReport judge(const std::vector<Relation>& relations,
-                                   std::vector<TrackedScan> track);
+                                   std::vector<TrackedPose> track);
 
 }  // namespace cairn::lab

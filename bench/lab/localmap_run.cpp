@@ -8,7 +8,9 @@
 #include "bench/lab/resources.hpp"
 #include "clients/common/failure.hpp"
 #include "clients/common/progress.hpp"
+#include "layout/trajectory.hpp"
 #include "lpm/local_mapper.hpp"
+#include "service/between_scans.hpp"
 #include "transport/inlets.hpp"
 #include "wire/log_reader.hpp"
 
@@ -17,6 +19,10 @@ namespace {
 
 using clients::ExitCode;
 using clients::Failure;
+
+double seconds_of(TimePoint time) {
+  return static_cast<double>(utime_of(time)) * 1e-6;
+}
 
 /// The local layer with a clock around its stages.
 class Runner {
@@ -30,6 +36,7 @@ class Runner {
   }
   void take(const OdometrySample& sample) {
     joiner_.add(sample);
+    between_.add(sample);
     absorb_joined();
   }
   void finish() {
@@ -54,7 +61,7 @@ class Runner {
       const double other_ms = 1e3 * (std::exchange(other_s_, 0.0) + lap_s());
       const LocalFix fix = mapper_.locate(*joined);
       const double matching_ms = 1e3 * lap_s();
-      const bool is_drawn = mapper_.take_up(joined->scan, fix);
+      const bool is_drawn = mapper_.take_up(fix);
       const double insertion_ms = 1e3 * lap_s();
       run_->matching.times_ms.push_back(matching_ms);
       run_->insertion.times_ms.push_back(insertion_ms);
@@ -66,16 +73,39 @@ class Runner {
   }
 
   void record(const JoinedScan& joined, const LocalFix& fix, bool is_drawn) {
-    const Vector2d& at = fix.T_lpm_robot.translation();
-    const double step_m =
-        run_->track.empty() ? 0.0 : (at - run_->track.back().T_lpm_robot.translation()).norm();
-    run_->track.push_back({static_cast<double>(utime_of(fix.time)) * 1e-6, fix.T_lpm_robot,
-                           run_->travel_m() + step_m});
+    keep_pose(joined, fix);
     ++run_->notes[to_string(fix.note)];
     run_->refused += fix.is_matched || fix.note == FixNote::kFirst ? 0 : 1;
     run_->degenerate += fix.is_degenerate ? 1 : 0;
     if (is_drawn) {
       keep_walls(joined.scan, fix.T_lpm_robot);
+    }
+  }
+
+  void keep_pose(const JoinedScan& joined, const LocalFix& fix) {
+    const std::vector<OdometrySample> between = between_.take(fix.time, joined.T_odom_robot);
+    TrackedPose here{seconds_of(fix.time), fix.T_lpm_robot, 0.0};
+    if (!run_->track.empty()) {
+      const TrackedPose& last = run_->track.back();
+      const Vector2d step = here.T_lpm_robot.translation() - last.T_lpm_robot.translation();
+      here.travel_m = last.travel_m + step.norm();
+      keep_between(between, last, here);
+    }
+    run_->track.push_back(here);
+    run_->poses.push_back(here);
+  }
+
+  void keep_between(const std::vector<OdometrySample>& between,
+                    const TrackedPose& last,
+                    const TrackedPose& here) {
+    std::vector<Pose2> T_previous_robot{Pose2()};
+    for (const OdometrySample& sample : between) {
+      T_previous_robot.push_back(sample.T_odom_robot);
+    }
+    const std::vector<Pose2> bent =
+        interpolate_travel(T_previous_robot, last.T_lpm_robot, here.T_lpm_robot);
+    for (std::size_t i = 0; i + 1 < between.size(); ++i) {
+      run_->poses.push_back({seconds_of(between[i].time), bent[i + 1], here.travel_m});
     }
   }
 
@@ -94,6 +124,7 @@ class Runner {
 
   LocalmapRun* run_;
   ScanJoiner joiner_;
+  BetweenScans between_;
   LocalMapper mapper_;
   double mark_s_ = 0.0;
   double other_s_ = 0.0;

@@ -11,11 +11,11 @@
 
 namespace cairn::lab {
 
-/// Where the local layer has the robot at one scan.
-struct TrackedScan {
+/// Where the local layer has the robot at one time.
+struct TrackedPose {
   double time_s = 0.0;
   Pose2 T_lpm_robot;
-  double travel_m = 0.0;  ///< Along the trajectory, since the first scan.
+  double travel_m = 0.0;  ///< Along the trajectory, from scan to scan, since the first.
 };
 
 /// CPU time per scan of one stage.

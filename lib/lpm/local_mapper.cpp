@@ -26,9 +26,10 @@ constexpr double kSlip = 25.0;               // squared Mahalanobis of fix and p
 constexpr double kLeastTimeStep_s = 1.0;     // recorded stamps are not to be trusted below this
 constexpr double kSpeedSigma_m_per_s = 0.5;  // for want of odometry
 constexpr double kTurnSigma_rad_per_s = 0.7;
-constexpr double kGoodScore = 0.85;      // a match that leaves no wish for another
-constexpr double kClearlyBetter = 0.05;  // in score
-constexpr double kRadPerTravel_m = 3.0;  // a turn of 1 rad renews the map as so much travel
+constexpr double kGoodScore = 0.85;         // a match that leaves no wish for another
+constexpr double kLeastOfUsualScore = 0.6;  // a sudden fall below it is a wrong match
+constexpr double kClearlyBetter = 0.05;     // in score
+constexpr double kRadPerTravel_m = 3.0;     // a turn of 1 rad renews the map as so much travel
 
 Matrix3d diagonal(double sigma_x_m, double sigma_y_m, double sigma_rad) {
   return Eigen::Vector3d(sigma_x_m * sigma_x_m, sigma_y_m * sigma_y_m, sigma_rad * sigma_rad)
@@ -95,12 +96,13 @@ LocalMapper::LocalMapper(const LpmOptions& options)
 
 LocalFix LocalMapper::absorb(const JoinedScan& joined) {
   const LocalFix fix = locate(joined);
-  take_up(joined.scan, fix);
+  take_up(fix);
   return fix;
 }
 
 LocalFix LocalMapper::locate(const JoinedScan& joined) {
-  matcher_.take(joined.scan);
+  beams_.take(joined.scan, {}, options_.map.max_free_range_m);
+  matcher_.take(beams_);
   LocalFix fix;
   fix.time = joined.scan.time;
   if (!is_started_) {
@@ -129,7 +131,7 @@ LocalFix LocalMapper::locate(const JoinedScan& joined) {
 
 ScanMatch LocalMapper::best_match(const GaussianPose& predicted, double dt_s) {
   const ScanMatch match = matcher_.match(map_, predicted);
-  if (match.score >= kGoodScore || dt_s <= 0.0) {
+  if (match.score >= kGoodScore || !match.was_searched || dt_s <= 0.0) {
     return match;
   }
   // Odometry that stalls and catches up later is wrong twice; the robot just goes on meanwhile.
@@ -175,7 +177,8 @@ void LocalMapper::settle(const ScanMatch& match, const GaussianPose& predicted, 
     fix->note = FixNote::kNoOverlap;
     return;
   }
-  if (match.score < options_.match.min_explained_share) {
+  if (match.score <
+      std::max(options_.match.min_explained_share, kLeastOfUsualScore * match.usual_score)) {
     fix->note = FixNote::kContradiction;
     return;
   }
@@ -220,7 +223,7 @@ void LocalMapper::advance(const JoinedScan& joined, const LocalFix& fix) {
   refusals_ = is_refused(fix.note) ? refusals_ + 1 : 0;
 }
 
-bool LocalMapper::take_up(const LaserScan& scan, const LocalFix& fix) {
+bool LocalMapper::take_up(const LocalFix& fix) {
   const Pose2 since = T_lpm_drawn_.inverse() * T_lpm_robot_;
   bool is_due = !is_started_ || since.translation().norm() >= options_.insert_every_m ||
                 std::abs(since.theta()) >= options_.insert_every_rad;
@@ -237,7 +240,7 @@ bool LocalMapper::take_up(const LaserScan& scan, const LocalFix& fix) {
   if (!is_due) {
     return false;
   }
-  map_.insert(scan, T_lpm_robot_, travel_m_);
+  map_.insert(beams_, T_lpm_robot_, travel_m_);
   T_lpm_drawn_ = T_lpm_robot_;
   uncertainty_ = diagonal(kLeastSigma_m, kLeastSigma_m, kLeastSigma_rad);
   refusals_ = 0;

@@ -6,6 +6,7 @@
 #include "geometry/gaussian_pose.hpp"
 #include "grid/occupancy_grid.hpp"
 #include "lpm/lpm_options.hpp"
+#include "lpm/scan_beams.hpp"
 #include "lpm/scan_matcher.hpp"
 #include "lpm/scrolling_map.hpp"
 #include "sensing/scan_joiner.hpp"
@@ -64,9 +65,9 @@ class LocalMapper {
   LocalFix absorb(const JoinedScan& joined);
   /// The first half of absorb(): the fix.
   [[nodiscard]] LocalFix locate(const JoinedScan& joined);
-  /// The second half, with the fix of the first: the map takes up the scan if it should.
+  /// The second half, with the fix of the first: the map takes up that scan if it should.
   /// @return whether it did
-  bool take_up(const LaserScan& scan, const LocalFix& fix);
+  bool take_up(const LocalFix& fix);
 
   /// The occupancy grid around the robot, in the lpm frame. Its origin moves by whole cells.
   [[nodiscard]] const OccupancyGrid& grid() const { return map_.grid(); }
@@ -91,6 +92,7 @@ class LocalMapper {
   void advance(const JoinedScan& joined, const LocalFix& fix);
 
   LpmOptions options_;
+  ScanBeams beams_;  // of the scan taken last
   ScrollingMap map_;
   ScanMatcher matcher_;
   bool is_started_ = false;
