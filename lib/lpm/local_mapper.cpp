@@ -101,7 +101,7 @@ LocalFix LocalMapper::absorb(const JoinedScan& joined) {
 }
 
 LocalFix LocalMapper::locate(const JoinedScan& joined) {
-  beams_.take(joined.scan, {}, options_.map.max_free_range_m);
+  beams_.take(joined.scan, twist_during(joined), options_.map.max_free_range_m);
   matcher_.take(beams_);
   LocalFix fix;
   fix.time = joined.scan.time;
@@ -127,6 +127,19 @@ LocalFix LocalMapper::locate(const JoinedScan& joined) {
   }
   advance(joined, fix);
   return fix;
+}
+
+Twist LocalMapper::twist_during(const JoinedScan& joined) const {
+  constexpr double kLeast_s = 1e-3;
+  const double dt_s = seconds_between(time_, joined.scan.time);
+  if (T_odom_robot_ && joined.T_odom_robot && dt_s >= kLeast_s && dt_s <= kLeastTimeStep_s) {
+    const Pose2 step = T_odom_robot_->inverse() * *joined.T_odom_robot;
+    if (step.translation().norm() <= options_.motion.max_speed_m_per_s * dt_s &&
+        std::abs(step.theta()) <= options_.motion.max_turn_rate_rad_per_s * dt_s) {
+      return {step.x() / dt_s, step.y() / dt_s, step.theta() / dt_s};
+    }
+  }
+  return {};  // what matches say of the speed must not bend the next scan: it would feed on itself
 }
 
 ScanMatch LocalMapper::best_match(const GaussianPose& predicted, double dt_s) {

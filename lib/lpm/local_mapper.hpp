@@ -85,6 +85,7 @@ class LocalMapper {
                const std::optional<Pose2>& T_odom_robot);
 
  private:
+  [[nodiscard]] Twist twist_during(const JoinedScan& joined) const;
   [[nodiscard]] GaussianPose predicted_motion(const JoinedScan& joined, bool* is_believed) const;
   [[nodiscard]] GaussianPose continued_motion(double dt_s) const;
   [[nodiscard]] ScanMatch best_match(const GaussianPose& predicted, double dt_s);

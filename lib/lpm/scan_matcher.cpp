@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 #include "lpm/surface_refinement.hpp"
 
@@ -31,6 +32,14 @@ constexpr double kWholeScore = 0.90;
 constexpr double kHeld_per_m2 = 1.0 / (0.04 * 0.04);
 
 }  // namespace
+
+Matrix3d ScanMatch::covariance(double hit_sigma_m) const {
+  constexpr double kBlind = 1.0;  // information of what is not known at all, 1/m^2 and 1/rad^2
+  const double measured = hit_sigma_m / fit.spread_m;
+  const Matrix3d covariance =
+      (measured * measured * fit.information + kBlind * Matrix3d::Identity()).inverse();
+  return 0.5 * (covariance + covariance.transpose());
+}
 
 void ScanMatcher::take(const ScanBeams& beams) {
   returns_.clear();

@@ -14,6 +14,9 @@ namespace cairn {
 /// Where a scan lies in the map, and how well.
 struct ScanMatch {
   Refinement fit;
+  /// Of the returns alone, as they scattered in this match, were the map without error; long where
+  /// they say nothing.
+  [[nodiscard]] Matrix3d covariance(double hit_sigma_m) const;
   double score = 0.0;         ///< Share of the returns over known cells that fall on walls, [0, 1].
   double usual_score = 0.0;   ///< What scans scored of late.
   double known_share = 0.0;   ///< Share of the returns that fall on known cells, [0, 1].

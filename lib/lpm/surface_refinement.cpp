@@ -1,5 +1,6 @@
 #include "lpm/surface_refinement.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -22,27 +23,33 @@ struct Round {
 constexpr Round kWideRound{4.0, 12, 4e-3, 1e-3};
 constexpr Round kNarrowRound{1.0, 12, 3e-4, 1e-4};
 constexpr std::size_t kPointsOfWideRound = 60;
+constexpr double kLeastSpread_m = 0.01;
 constexpr double kMaxDamping = 1e6;
 constexpr double kOtherSide = 0.3;  // cosine between normals below which surfaces are not the same
 
-constexpr int kHeadings = 1024;
+struct Heading {
+  double x = 1.0;
+  double y = 0.0;
+};
+constexpr std::size_t kHeadings = 1024;
 
-/// Unit vectors all around.
-const std::array<Vector2d, kHeadings>& headings() {
-  static const std::array<Vector2d, kHeadings> table = [] {
-    std::array<Vector2d, kHeadings> vectors;
-    for (std::size_t i = 0; i < kHeadings; ++i) {
-      const double angle = 2.0 * kPi * (static_cast<double>(i) + 0.5) / kHeadings;
-      vectors[i] = Vector2d(std::cos(angle), std::sin(angle));
-    }
-    return vectors;
-  }();
-  return table;
+/// Unit vectors all around, each in the middle of its share of the turn.
+constexpr std::array<Heading, kHeadings> make_headings() {
+  constexpr Heading kStep{0.99998117528260111, 0.0061358846491544753};   // a turn / 1024
+  constexpr Heading kFirst{0.99999529380957619, 0.0030679567629659762};  // half of that
+  std::array<Heading, kHeadings> headings{};
+  headings[0] = kFirst;
+  for (std::size_t i = 1; i < kHeadings; ++i) {
+    const Heading& last = headings[i - 1];
+    headings[i] = {last.x * kStep.x - last.y * kStep.y, last.y * kStep.x + last.x * kStep.y};
+  }
+  return headings;
 }
+constexpr std::array<Heading, kHeadings> kHeadingTable = make_headings();
 
-const Vector2d& heading_of(std::int16_t angle) {
-  constexpr unsigned kShift = 16 - 10;
-  return headings()[static_cast<std::uint16_t>(angle) >> kShift];
+Vector2d heading_of(std::int16_t angle) {
+  const Heading& heading = kHeadingTable[static_cast<std::uint16_t>(angle) / (65'536U / kHeadings)];
+  return {heading.x, heading.y};
 }
 
 /// What is laid on what.
@@ -60,6 +67,8 @@ struct Sums {
   double xx = 0.0, xy = 0.0, yy = 0.0, xt = 0.0, yt = 0.0, tt = 0.0;
   double x = 0.0, y = 0.0, t = 0.0;
   double loss = 0.0;
+  double weights = 0.0;
+  double squares = 0.0;  // of residuals
 
   void add(double weight, double error, const Vector2d& way, const Vector2d& arm) {
     const double turn = way.y() * arm.x() - way.x() * arm.y();
@@ -75,6 +84,8 @@ struct Sums {
     x += wx * error;
     y += wy * error;
     t += wt * error;
+    weights += weight;
+    squares += weight * error * error;
   }
   void add(const Sums& other) {
     xx += other.xx;
@@ -87,6 +98,8 @@ struct Sums {
     y += other.y;
     t += other.t;
     loss += other.loss;
+    weights += other.weights;
+    squares += other.squares;
   }
   [[nodiscard]] Matrix3d matrix() const {
     Matrix3d m;
@@ -99,6 +112,7 @@ struct NormalEquations {
   Matrix3d hessian = Matrix3d::Zero();
   Matrix3d information = Matrix3d::Zero();
   Vector3d gradient = Vector3d::Zero();
+  double spread_m = 0.0;
   double cost = 0.0;
 };
 
@@ -173,6 +187,9 @@ NormalEquations equations_at(const Problem& problem,
   sum.information = weight * facing.matrix();
   sum.hessian = weight * sums.matrix() + problem.prior_information;
   sum.gradient = weight * Vector3d(sums.x, sums.y, sums.t) + pull;
+  sum.spread_m = facing.weights > 0.0
+                     ? std::max(kLeastSpread_m, std::sqrt(facing.squares / facing.weights))
+                     : options.hit_sigma_m;
   sum.cost = 0.5 * weight * sums.loss + 0.5 * deviation.dot(pull);
   return sum;
 }
@@ -218,7 +235,7 @@ Refinement refine_on_surfaces(const ScrollingMap& map,
   descend(problem, kWideRound, &pose);
   problem.stride = 1;
   const NormalEquations end = descend(problem, kNarrowRound, &pose);
-  return {pose, end.information, end.cost};
+  return {pose, end.information, end.spread_m, end.cost};
 }
 
 }  // namespace cairn
