@@ -28,7 +28,7 @@ struct RelationError {
 const TrackedPose* scan_at(const std::vector<TrackedPose>& track, double time_s) {
   const auto later =
       std::upper_bound(track.begin(), track.end(), time_s,
-                       [](double time, const TrackedPose& scan) { return time < scan.time_s; });
+                       [](double time, const TrackedPose& pose) { return time < pose.time_s; });
   const TrackedPose* nearest = nullptr;
   if (later != track.begin()) {
     nearest = &*std::prev(later);
@@ -116,8 +116,11 @@ std::vector<Relation> read_relations(const std::filesystem::path& file) {
 }
 
 RelationReport judge(const std::vector<Relation>& relations, std::vector<TrackedPose> track) {
-  std::stable_sort(track.begin(), track.end(),
-                   [](const TrackedPose& a, const TrackedPose& b) { return a.time_s < b.time_s; });
+  // Stamps may repeat; then it must not depend on the order of the log which one is taken.
+  std::sort(track.begin(), track.end(), [](const TrackedPose& a, const TrackedPose& b) {
+    return std::tuple(a.time_s, a.T_lpm_robot.x(), a.T_lpm_robot.y(), a.T_lpm_robot.theta()) <
+           std::tuple(b.time_s, b.T_lpm_robot.x(), b.T_lpm_robot.y(), b.T_lpm_robot.theta());
+  });
   RelationReport report;
   std::vector<RelationError> errors;
   for (const Relation& relation : relations) {

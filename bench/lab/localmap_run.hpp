@@ -29,7 +29,9 @@ struct StageTimes {
 
 /// What came of the local layer alone on a log.
 struct LocalmapRun {
-  std::vector<TrackedScan> track;             ///< In the order of the log.
+  std::vector<TrackedPose> track;  ///< At every scan, in the order of the log.
+  /// The same, and between two scans at every sample of odometry: its way bent to end at the fix.
+  std::vector<TrackedPose> poses;
   std::vector<Vector2d> walls_lpm;            ///< Some of the returns, where the map took them up.
   std::map<std::string, std::int64_t> notes;  ///< How the fixes came about.
   std::int64_t refused = 0;

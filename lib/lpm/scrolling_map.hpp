@@ -23,6 +23,8 @@ namespace cairn {
 /// map).
 class ScrollingMap {
  public:
+  static constexpr int kBlockCells = 16;  ///< Side of the blocks that are scrolled and forgotten.
+
   /// @pre the options are within their ranges
   explicit ScrollingMap(const ScrollingMapOptions& options);
 
