@@ -124,7 +124,7 @@ std::string trajectory_of(const LocalmapRun& run) {
   for (const TrackedPose& scan : run.poses) {
     std::array<char, 128> line{};
     const Pose2& pose = scan.T_lpm_robot;
-    const int length = std::snprintf(line.data(), line.size(), "%.6f %.6f %.6f %.7f\n", scan.time_s,
+    const int length = std::snprintf(line.data(), line.size(), "%.6f %.9f %.9f %.9f\n", scan.time_s,
                                      pose.x(), pose.y(), pose.theta());
     text.append(line.data(), static_cast<std::size_t>(length));
   }

@@ -36,7 +36,7 @@ class DistanceField {
   [[nodiscard]] double distance_m(Cell c) const { return distance_m_[squared_cells(c)]; }
   /// The nearest wall cell; of several that are as near always the same.
   /// @pre geometry().contains(c)
-  /// @return false where no wall is within reach
+  /// @return false where no wall is within reach, or it lies outside of the window
   [[nodiscard]] bool find_nearest(Cell c, Cell* wall) const {
     const std::int16_t nearest = nearest_[c];
     if (nearest == kNone) {
@@ -45,7 +45,7 @@ class DistanceField {
     const int code = nearest & kOffsetMask;
     *wall = {c.x + offset_x_[static_cast<std::size_t>(code)],
              c.y + offset_y_[static_cast<std::size_t>(code)]};
-    return true;
+    return geometry_.contains(*wall);  // the window may have left it behind
   }
   /// What a table says of the squared distances of cells side by side in a row, from `first` on.
   /// @pre the cells lie within the field

@@ -29,7 +29,7 @@ struct MotionModelOptions {
 
 /// Scan matching against the scrolling map.
 struct ScanMatchOptions {
-  double point_spacing_m = 0.03;      ///< Returns closer together than this are thinned. >= 0
+  double point_spacing_m = 0.02;      ///< Returns closer together than this are thinned. >= 0
   double max_match_range_m = 40.0;    ///< Farther returns are not matched. > 0
   double hit_sigma_m = 0.05;          ///< Spread of a return around the wall. > 0
   double independent_share = 0.2;     ///< Share of returns that count as independent. (0, 1]
