@@ -127,4 +127,41 @@ std::optional<Repair> HypothesisTree::regrow() {
   return repair;
 }
 
+PlaceOrder HypothesisTree::order_for(const Leaf& leaf, VisitId visit) const {
+  return order_by_places(visit, [&](VisitId other) { return place_of_visit(leaf, other); });
+}
+
+/// What operators say of a visit, where earlier visits were to these places.
+PlaceOrder HypothesisTree::order_by_places(
+    VisitId visit, const std::function<std::optional<PlaceId>(VisitId)>& place_of) const {
+  PlaceOrder order;
+  if (!assertions_.is_any_in_force() || !assertions_.names(visit)) {
+    return order;
+  }
+  // Every earlier visit of a chain obeyed already, so all of them are at one place.
+  for (const VisitId other : assertions_.same_as(visit)) {
+    if (other < visit) {
+      order.must_be = place_of(other);
+    }
+  }
+  for (const VisitId other : assertions_.different_from(visit)) {
+    const std::optional<PlaceId> place = other < visit ? place_of(other) : std::nullopt;
+    if (place) {
+      order.must_not_be.push_back(*place);
+    }
+  }
+  return order;
+}
+
+/// Visits that assertions name leave a node, even where a known link was followed.
+std::optional<PlaceId> HypothesisTree::place_of_visit(const Leaf& leaf, VisitId visit) const {
+  const TreeNodes& nodes = engine_->nodes;
+  for (NodeIndex node = leaf.node; node != kNoNode; node = nodes[node].parent) {
+    if (nodes[node].visit == visit && !nodes[node].is_part) {
+      return engine_->cursor.map().place_of(nodes[node].position);
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace cairn

@@ -10,8 +10,6 @@
 namespace cairn {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 MisreadingCosts costs_of(const TopologyOptions& options) {
   return {options.log_penalty_misread, options.log_penalty_missed_gateway,
           options.log_penalty_false_gateway};
@@ -272,71 +270,6 @@ HypothesisTree::Candidate HypothesisTree::candidate_of(const Leaf& leaf,
   }
   next.leaf.path_count += next.paths_added;
   return next;
-}
-
-PlaceOrder HypothesisTree::order_for(const Leaf& leaf, VisitId visit) const {
-  PlaceOrder order;
-  if (!assertions_.is_any_in_force()) {
-    return order;
-  }
-  if (!assertions_.names(visit)) {
-    return order;
-  }
-  // Every earlier visit of a chain obeyed already, so all of them are at one place.
-  for (const VisitId other : assertions_.same_as(visit)) {
-    if (other < visit) {
-      order.must_be = place_of_visit(leaf, other);
-    }
-  }
-  for (const VisitId other : assertions_.different_from(visit)) {
-    const std::optional<PlaceId> place = other < visit ? place_of_visit(leaf, other) : std::nullopt;
-    if (place) {
-      order.must_not_be.push_back(*place);
-    }
-  }
-  return order;
-}
-
-/// Visits that assertions name leave a node, even where a known link was followed.
-std::optional<PlaceId> HypothesisTree::place_of_visit(const Leaf& leaf, VisitId visit) const {
-  const TreeNodes& nodes = engine_->nodes;
-  for (NodeIndex node = leaf.node; node != kNoNode; node = nodes[node].parent) {
-    if (nodes[node].visit == visit && !nodes[node].is_part) {
-      return engine_->cursor.map().place_of(nodes[node].position);
-    }
-  }
-  return std::nullopt;
-}
-
-void HypothesisTree::lay_out(ExtendReport& report) {
-  const Engine& engine = *engine_;
-  if (!engine.evidence.layout) {
-    return;
-  }
-  // A layout inherited from the parent is an upper bound, so the order need not be revised.
-  std::vector<std::size_t> order(live_.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return live_[a].log_posterior() > live_[b].log_posterior();
-  });
-  const double best_before = live_[order.front()].log_posterior();
-  double best = -kInfinity;
-  for (const std::size_t index : order) {
-    Leaf& leaf = live_[index];
-    leaf.is_layout_deferred = leaf.log_posterior() < best - engine.options.layout_margin;
-    if (leaf.is_layout_deferred) {
-      ++report.layouts_deferred;
-      continue;
-    }
-    leaf.log_layout = engine.evidence.layout(map_of(leaf, leaf.visit.value + 1));
-    CAIRN_CHECK(leaf.log_layout < kInfinity);  // NaN compares false.
-    best = std::max(best, leaf.log_posterior());
-    ++report.layouts_evaluated;
-  }
-  // The layout makes all less likely, those that wait too once they are laid out.
-  if (std::isfinite(best) && std::isfinite(best_before)) {
-    baseline_log_posterior_.back() += best - best_before;
-  }
 }
 
 // What only one thing below needs is shared by all leaves.

@@ -9,6 +9,7 @@
 #include "topology/deferred.hpp"
 #include "topology/evidence.hpp"
 #include "topology/extend_report.hpp"
+#include "topology/hypothesis.hpp"
 #include "topology/leaf.hpp"
 #include "topology/lineage.hpp"
 #include "topology/operator_assertions.hpp"
@@ -17,21 +18,6 @@
 #include "topology/tree_nodes.hpp"
 
 namespace cairn {
-
-/// A live hypothesis: a map that explains everything experienced so far.
-struct Hypothesis {
-  HypothesisId id;  ///< Stays while travels only follow known links: it names the map.
-  HypothesisId parent;
-  double log_steps = 0.0;   ///< Priors, evidence of same places, penalties.
-  double log_layout = 0.0;  ///< Of the metrical layout; the parent's where deferred.
-  int path_count = 0;
-  int place_count = 0;
-  int contradictions = 0;  ///< Observations that the map blames or fails to explain.
-  bool is_layout_deferred = false;
-
-  /// Natural logarithm, not normalised. An upper bound where the layout is deferred.
-  [[nodiscard]] double log_posterior() const { return log_steps + log_layout; }
-};
 
 /// The tree of topological maps: all maps that are consistent with the robot's experience, grown by
 /// one arrival at a time.
@@ -56,6 +42,12 @@ struct Hypothesis {
 /// Not for several threads at a time, constant members included: they move the working map.
 class HypothesisTree {
  public:
+  using PlaceClaim = cairn::PlaceClaim;
+  using NodeView = HypothesisNode;
+  using Considered = cairn::Considered;
+  using Parting = cairn::Parting;
+  using Fate = cairn::Fate;
+
   /// Whether an arrival has taken its time; the leaves that were not looked at then wait.
   using Deadline = std::function<bool()>;
 
@@ -99,10 +91,6 @@ class HypothesisTree {
   /// The place where the robot is, named by the visit that made it known, once the odds of all live
   /// hypotheses that say so against the others reach claim_odds. The robot may always be at a place
   /// that it just found.
-  struct PlaceClaim {
-    VisitId first_visit;
-    double log_odds = 0.0;
-  };
   [[nodiscard]] std::optional<PlaceClaim> claimed_place() const;
 
   /// @pre the hypothesis is live
@@ -122,56 +110,18 @@ class HypothesisTree {
   /// Whether it is live, waiting, or an ancestor of one that is.
   [[nodiscard]] bool is_known(HypothesisId id) const { return find_node(id) != kNoNode; }
 
-  /// A node for those who draw the tree.
-  struct NodeView {
-    HypothesisId id;
-    HypothesisId parent;
-    VisitId visit;
-    StepKind kind = StepKind::kStart;
-    double log_likelihood = 0.0;
-    bool is_live = false;
-    bool is_waiting = false;
-  };
   /// All nodes that are needed, parents before children.
   [[nodiscard]] std::vector<NodeView> nodes() const;
 
   // Why: explanation.cpp.
 
-  /// An alternative that a hypothesis had at a visit, and whether it took it.
-  struct Considered {
-    StepKind kind = StepKind::kStart;
-    Refutation refuted_by = Refutation::kNone;
-    Misreading misreading = Misreading::kNone;
-    GatewayRef departure;
-    GatewayRef target;  ///< No place: a new one.
-    double log_likelihood = 0.0;
-    bool is_taken = false;
-    std::string sentence;
-  };
   /// Everything the visit might have meant to this hypothesis, and what decided.
   /// @pre as map_at()
   [[nodiscard]] std::vector<Considered> explanation(HypothesisId live, VisitId visit) const;
 
-  /// Where two live hypotheses part, and what speaks for each since.
-  struct Parting {
-    VisitId visit;          ///< At which they part.
-    Considered of_a;        ///< What a took it for,
-    Considered of_b;        ///< and b.
-    double log_odds = 0.0;  ///< Of a against b, everything since counted.
-    std::string sentence;
-  };
   /// @pre both are live and not the same
   [[nodiscard]] Parting parting(HypothesisId a, HypothesisId b) const;
 
-  /// What becomes of a live hypothesis' map if a visit is taken for something else: the map that
-  /// was refuted, and by what.
-  struct Fate {
-    bool is_refuted = false;
-    VisitId visit;  ///< At which the first thing speaks against it, or the last one.
-    Refutation reason = Refutation::kNone;
-    double log_odds = 0.0;  ///< Against the live hypothesis; minus infinity if refuted.
-    std::string sentence;
-  };
   /// @param alternative position in explanation(live, visit)
   /// @pre as map_at(); 0 <= alternative < its size
   [[nodiscard]] Fate why_not(HypothesisId live, VisitId visit, std::size_t alternative) const;
@@ -255,6 +205,8 @@ class HypothesisTree {
   [[nodiscard]] Candidate candidate_of(const Leaf& leaf, const Alternative& alternative);
   [[nodiscard]] Situation situation_of(const Leaf& leaf) const;
   [[nodiscard]] PlaceOrder order_for(const Leaf& leaf, VisitId visit) const;
+  [[nodiscard]] PlaceOrder order_by_places(
+      VisitId visit, const std::function<std::optional<PlaceId>(VisitId)>& place_of) const;
   [[nodiscard]] std::optional<PlaceId> place_of_visit(const Leaf& leaf, VisitId visit) const;
 
   // hypothesis_budget.cpp
@@ -295,6 +247,8 @@ class HypothesisTree {
   [[nodiscard]] NodeIndex find_node(HypothesisId id) const;
   [[nodiscard]] const Leaf& leaf_of(HypothesisId id) const;
   [[nodiscard]] TopologicalMap map_of(const Leaf& leaf, int visits) const;
+  [[nodiscard]] TopologicalMap assembled(const WorkingMap& map,
+                                         const std::vector<GatewayRef>& departures) const;
   [[nodiscard]] Lineage lineage_of(const Leaf& leaf) const;
   [[nodiscard]] Leaf before(const Leaf& leaf, VisitId visit) const;
   [[nodiscard]] std::vector<Leaf> ranked() const;

@@ -153,32 +153,41 @@ Lineage HypothesisTree::lineage_of(const Leaf& leaf) const {
 }
 
 TopologicalMap HypothesisTree::map_of(const Leaf& leaf, int visits) const {
+  Lineage lineage = lineage_of(leaf);
+  while (lineage.visit().value + 1 < visits) {
+    lineage.advance();
+  }
+  return assembled(lineage.map(), lineage.departures());
+}
+
+/// @param map knows its visits
+/// @param departures by visit, no place where it is not told; no more visits than these
+TopologicalMap HypothesisTree::assembled(const WorkingMap& map,
+                                         const std::vector<GatewayRef>& departures) const {
   Engine& engine = *engine_;
   if (!engine.shared_stars || engine.shared_stars->count() != engine.stars.count()) {
     // Maps handed out keep the catalogue they have: it may be read by another thread.
     engine.shared_stars = std::make_shared<const StarCatalogue>(engine.stars);
   }
-  Lineage lineage = lineage_of(leaf);
-  while (lineage.visit().value + 1 < visits) {
-    lineage.advance();
+  std::vector<TopologicalMap::PlacedVisit> placed(departures.size());
+  for (PlaceId place{0}; place.value < map.place_count(); ++place.value) {
+    const StarId star = map.star(place);
+    for (std::int32_t at = map.latest_record(place); at >= 0; at = map.record(at).previous) {
+      const auto [visit, number, previous] = map.record(at);
+      const GatewayRef departure = departures[visit.index()];
+      const int left_by = departure.place.is_valid() ? departure.gateway : -1;
+      const View& view = engine.experience.view(visit);
+      const bool is_plain =
+          view.others.empty() && engine.experience.matcher(visit).is_exact(star, number);
+      placed[visit.index()] = {{place, number},
+                               view.arrival_gateway,
+                               is_plain
+                                   ? std::vector<int>{}
+                                   : engine.experience.gateways_at(visit, star, number, left_by),
+                               engine.experience.is_carried(visit)};
+    }
   }
-  std::vector<TopologicalMap::PlacedVisit> placed;
-  placed.reserve(static_cast<std::size_t>(visits));
-  for (VisitId visit{0}; visit.value < visits; ++visit.value) {
-    const GatewayRef arrival = lineage.arrivals()[visit.index()];
-    const GatewayRef departure = lineage.departures()[visit.index()];
-    const int left_by = departure.place.is_valid() ? departure.gateway : -1;
-    const StarId star = lineage.map().star(arrival.place);
-    const View& view = engine.experience.view(visit);
-    const bool is_plain =
-        view.others.empty() && engine.experience.matcher(visit).is_exact(star, arrival.gateway);
-    placed.push_back({arrival, view.arrival_gateway,
-                      is_plain
-                          ? std::vector<int>{}
-                          : engine.experience.gateways_at(visit, star, arrival.gateway, left_by),
-                      engine.experience.is_carried(visit)});
-  }
-  return {engine.shared_stars, lineage.map(), placed};
+  return {engine.shared_stars, map, placed};
 }
 
 /// The leaf as it was before a visit that it explains.

@@ -116,16 +116,19 @@ void Successors::consider_unexplained(GatewayIndex departure, const Arrival& arr
 
 // Evidence says clearly that the robot is at a place which the map has elsewhere: some earlier step
 // was wrong. As long as nobody knows which, the travel stays unexplained, and the robot is where it
-// is. Only where the symbols allow nothing that evidence speaks for.
+// is. Only where the symbols allow nothing that evidence speaks for, and the visit is a surprise or
+// the map has breaks that are to be mended.
 void Successors::consider_rejoining(GatewayIndex departure, const Arrival& arrival) {
-  if (rejoining_.count(arrival.visit) == 0 || arrival.on_the_way != StepKind::kStart ||
+  const bool is_map_sound = rejoining_.count(arrival.visit) == 0 && map_.one_way_count() == 0;
+  if (is_map_sound || !evidence_->same_place || arrival.on_the_way != StepKind::kStart ||
       arrival.amendment.kind != MapChange::Kind::kNothing || is_recognised()) {
     return;
   }
   const Recognised likeliest = likeliest_place(arrival.visit);
   const double log_likelihood = likeliest.log_likelihood - options_->log_penalty_break;
   if (likeliest.at == kNoGateway || likeliest.at == departure ||
-      log_likelihood <= options_->log_prior_new_place) {
+      likeliest.log_likelihood <= options_->recognition_threshold ||
+      log_likelihood < options_->log_prior_new_place - options_->blame_margin) {
     return;
   }
   Alternative again;

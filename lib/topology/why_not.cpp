@@ -1,6 +1,7 @@
 // What would have become of a map that was not kept.
 
 #include <algorithm>
+#include <functional>
 
 #include "base/check.hpp"
 #include "topology/hypothesis_tree.hpp"
@@ -12,12 +13,17 @@ namespace {
 /// A map that is carried on by any steps that explain what came, the likeliest first.
 class WhatIf {
  public:
+  /// What operators say of a visit to this map.
+  using Orders = std::function<PlaceOrder(VisitId, const WorkingMap&)>;
+
   WhatIf(const TopologyOptions& options,
          const Evidence& evidence,
          const ExperienceLog& experience,
          StarCatalogue& stars,
+         Orders orders,
          Lineage lineage)
-      : lineage_(std::move(lineage)),
+      : orders_(std::move(orders)),
+        lineage_(std::move(lineage)),
         position_(lineage_.position()),
         successors_(options, evidence, experience, stars, lineage_.map()) {}
 
@@ -53,6 +59,7 @@ class WhatIf {
     }
     return next > last ? Outcome::kExplained : Outcome::kUnknown;
   }
+  [[nodiscard]] const WorkingMap& map() { return lineage_.map(); }
   [[nodiscard]] double log_likelihood() const { return log_likelihood_; }
   /// The latest visit that could not be explained, and what spoke against its first alternative.
   [[nodiscard]] VisitId latest() const { return latest_; }
@@ -70,7 +77,8 @@ class WhatIf {
     Level level;
     level.position = position_;
     level.log_likelihood = log_likelihood_;
-    successors_.list({position_, visit, {}}, Successors::Detail::kAll, all_);
+    successors_.list({position_, visit, orders_(visit, lineage_.map())}, Successors::Detail::kAll,
+                     all_);
     for (auto one = all_.rbegin(); one != all_.rend(); ++one) {
       if (one->refuted_by == Refutation::kNone) {
         level.untried.push_back(*one);
@@ -94,6 +102,7 @@ class WhatIf {
     log_likelihood_ = level.log_likelihood;
   }
 
+  Orders orders_;
   Lineage lineage_;
   GatewayIndex position_;
   Successors successors_;
@@ -102,6 +111,18 @@ class WhatIf {
   Refutation obstacle_ = Refutation::kNone;
   double log_likelihood_ = 0.0;
 };
+
+/// Where the map says that the robot was.
+std::optional<PlaceId> place_in(const WorkingMap& map, VisitId visit) {
+  for (PlaceId place{0}; place.value < map.place_count(); ++place.value) {
+    for (std::int32_t at = map.latest_record(place); at >= 0; at = map.record(at).previous) {
+      if (map.record(at).visit == visit) {
+        return place;
+      }
+    }
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -140,7 +161,10 @@ HypothesisTree::Fate HypothesisTree::why_not(HypothesisId live,
   while (lineage.visit().value + 1 < visit.value) {
     lineage.advance();
   }
-  WhatIf other(engine.options, engine.evidence, engine.experience, engine.stars,
+  const auto orders = [&](VisitId at, const WorkingMap& map) {
+    return order_by_places(at, [&](VisitId earlier_visit) { return place_in(map, earlier_visit); });
+  };
+  WhatIf other(engine.options, engine.evidence, engine.experience, engine.stars, orders,
                std::move(lineage));
   other.take(all[alternative], visit);
   const auto outcome =
@@ -158,6 +182,14 @@ HypothesisTree::Fate HypothesisTree::why_not(HypothesisId live,
   log_taken -= log_steps_before(leaf, visit);
   fate.visit = last_visit();
   fate.log_odds = other.log_likelihood() - log_taken;
+  if (engine.evidence.layout) {
+    const std::vector<GatewayRef> not_told(static_cast<std::size_t>(visit_count()));
+    const double log_layout = engine.evidence.layout(assembled(other.map(), not_told));
+    if (log_layout == -std::numeric_limits<double>::infinity()) {
+      return refute(last_visit(), Refutation::kEvidence);
+    }
+    fate.log_odds += log_layout - leaf.log_layout;
+  }
   fate.sentence = asked.sentence + "; it explains everything since, with log-odds " +
                   std::to_string(fate.log_odds) + " against the live hypothesis";
   return fate;
