@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -59,6 +60,7 @@ class ParticleMatcher {
 
  private:
   using Vector3d = Eigen::Vector3d;
+  using Bin = std::array<int, 3>;
   /// Particles are deviations (x, y, theta) from the predicted pose, in the lpm frame.
   struct Belief {
     std::vector<Vector3d> particles;
@@ -71,10 +73,12 @@ class ParticleMatcher {
 
   [[nodiscard]] ScanMatch filtered(const ScrollingMap& map,
                                    const GaussianPose& predicted,
-                                   SplitRandom random);
+                                   SplitRandom random,
+                                   std::vector<Vector3d>* left_open);
   [[nodiscard]] std::vector<Vector3d> drawn(const Matrix3d& covariance, SplitRandom* random) const;
+  [[nodiscard]] Bin bin_of(const Vector3d& deviation) const;
   [[nodiscard]] std::size_t enough(std::size_t bins) const;
-  void weigh(const ScrollingMap& map, const Pose2& around, Belief* belief) const;
+  void weigh(const DistanceField& walls, const Pose2& around, Belief* belief) const;
   [[nodiscard]] double log_likelihood(const DistanceField& walls, const Pose2& pose) const;
   [[nodiscard]] double next_temper(const Belief& belief, double temper) const;
   void resample(double temper_step, SplitRandom* random, Belief* belief) const;
