@@ -12,14 +12,9 @@
 namespace cairn {
 namespace {
 
-constexpr double kOutlierInSigmas2 = 9.0;  // calibration: from here on an error weighs half
-constexpr double kFirstGain = 0.5;         // of noise: fast at first
+constexpr double kFirstGain = 0.5;  // of noise: fast at first
 constexpr double kLeastVariance = 1e-12;
 constexpr double kVagueMatch = 4.0;  // ratio of variances
-
-double outlier_weight(double error, double variance) {
-  return 1.0 / (1.0 + error * error / (variance * kOutlierInSigmas2));
-}
 
 double squared(double value) {
   return value * value;
@@ -56,6 +51,7 @@ Status validate(const MotionLearningOptions& options) {
       .within("turn_scale_sigma", options.turn_scale_sigma, 1e-4, 1.0)
       .within("turn_sigma_rad_per_m", options.turn_sigma_rad_per_m, 1e-4, 1.0)
       .within("slide_sigma_m_per_m", options.slide_sigma_m_per_m, 1e-4, 1.0)
+      .within("lever_sigma_m", options.lever_sigma_m, 1e-4, 1.0)
       .within("bound_sigmas", options.bound_sigmas, 1.0, 10.0)
       .status();
 }
@@ -63,11 +59,27 @@ Status validate(const MotionLearningOptions& options) {
 MotionModel::MotionModel(const MotionLearningOptions& options)
     : options_(options),
       noise_(options.first),
-      drive_scale_variance_(squared(options.drive_scale_sigma)),
-      slide_variance_(squared(options.slide_sigma_m_per_m)) {
+      drive_({options.drive_scale_sigma, options.lever_sigma_m},
+             options.bound_sigmas,
+             options.calibration_memory_lessons),
+      slide_({options.slide_sigma_m_per_m, options.lever_sigma_m},
+             options.bound_sigmas,
+             options.calibration_memory_lessons),
+      turn_({options.turn_scale_sigma, options.turn_sigma_rad_per_m},
+            options.bound_sigmas,
+            options.calibration_memory_lessons) {
   CAIRN_CHECK(validate(options).ok());
-  turn_covariance_.diagonal() << squared(options.turn_scale_sigma),
-      squared(options.turn_sigma_rad_per_m);
+}
+
+OdometryCalibration MotionModel::calibration() const {
+  OdometryCalibration calibration;
+  calibration.drive_scale += drive_.shares()(0);
+  calibration.drive_m_per_rad = drive_.shares()(1);
+  calibration.slide_m_per_m = slide_.shares()(0);
+  calibration.slide_m_per_rad = slide_.shares()(1);
+  calibration.turn_scale += turn_.shares()(0);
+  calibration.turn_rad_per_m = turn_.shares()(1);
+  return calibration;
 }
 
 MotionModel::Step MotionModel::step_of(const Pose2& motion) {
@@ -76,10 +88,11 @@ MotionModel::Step MotionModel::step_of(const Pose2& motion) {
 }
 
 MotionModel::Step MotionModel::corrected(const Step& odometry) const {
-  return {
-      calibration_.drive_scale * odometry.drive_m,
-      odometry.slide_m + calibration_.slide_m_per_m * odometry.drive_m,
-      calibration_.turn_scale * odometry.turn_rad + calibration_.turn_rad_per_m * odometry.drive_m};
+  const Vector2d drive_first(odometry.drive_m, odometry.turn_rad);
+  const Vector2d turn_first(odometry.turn_rad, odometry.drive_m);
+  return {odometry.drive_m + drive_.shares().dot(drive_first),
+          odometry.slide_m + slide_.shares().dot(drive_first),
+          odometry.turn_rad + turn_.shares().dot(turn_first)};
 }
 
 MotionModel::Variances MotionModel::random_variances(double drive_m,
@@ -92,10 +105,9 @@ MotionModel::Variances MotionModel::random_variances(double drive_m,
 }
 
 MotionModel::Variances MotionModel::calibration_variances(const Step& odometry) const {
-  const Vector2d turn_parts(odometry.turn_rad, odometry.drive_m);
-  return {drive_scale_variance_ * squared(odometry.drive_m),
-          slide_variance_ * squared(odometry.drive_m),
-          turn_parts.dot(turn_covariance_ * turn_parts)};
+  const Vector2d drive_first(odometry.drive_m, odometry.turn_rad);
+  const Vector2d turn_first(odometry.turn_rad, odometry.drive_m);
+  return {drive_.variance(drive_first), slide_.variance(drive_first), turn_.variance(turn_first)};
 }
 
 GaussianPose MotionModel::predict(const Pose2& odometry_step) const {
@@ -165,50 +177,11 @@ void MotionModel::take_lesson() {
 void MotionModel::learn_calibration(const Step& odometry,
                                     const Step& error,
                                     const Variances& variances) {
-  const double keep = 1.0 - 1.0 / options_.calibration_memory_lessons;
-  // One unknown: Kalman's update, the belief widened by forgetting but never beyond the prior.
-  const auto learn_share = [&](double part, double miss, double variance, double sigma,
-                               double* belief) {
-    *belief = std::min(*belief / keep, squared(sigma));
-    const double weighed = variance / outlier_weight(miss, variance + *belief * part * part);
-    const double gain = *belief * part / (*belief * part * part + weighed);
-    *belief *= 1.0 - gain * part;
-    return gain * miss;
-  };
-  const auto bounded = [&](double value, double middle, double sigma) {
-    return std::clamp(value, middle - options_.bound_sigmas * sigma,
-                      middle + options_.bound_sigmas * sigma);
-  };
-  calibration_.drive_scale = bounded(
-      calibration_.drive_scale + learn_share(odometry.drive_m, error.drive_m, variances.drive_m2,
-                                             options_.drive_scale_sigma, &drive_scale_variance_),
-      1.0, options_.drive_scale_sigma);
-  calibration_.slide_m_per_m = bounded(
-      calibration_.slide_m_per_m + learn_share(odometry.drive_m, error.slide_m, variances.slide_m2,
-                                               options_.slide_sigma_m_per_m, &slide_variance_),
-      0.0, options_.slide_sigma_m_per_m);
-
-  const Vector2d parts(odometry.turn_rad, odometry.drive_m);
-  const Vector2d sigmas(options_.turn_scale_sigma, options_.turn_sigma_rad_per_m);
-  // Forgetting by direction: what this lesson does not touch is not forgotten.
-  const Vector2d touched = turn_covariance_ * parts;
-  const double spread = parts.dot(touched);
-  if (spread > 0.0) {
-    turn_covariance_ += (1.0 / keep - 1.0) / spread * touched * touched.transpose();
-  }
-  const Vector2d too_wide = turn_covariance_.diagonal().cwiseSqrt().cwiseQuotient(sigmas);
-  const Vector2d shrink = too_wide.cwiseMax(1.0).cwiseInverse();
-  turn_covariance_ = shrink.asDiagonal() * turn_covariance_ * shrink.asDiagonal();
-  const Vector2d reach = turn_covariance_ * parts;
-  const double weighed =
-      variances.turn_rad2 / outlier_weight(error.turn_rad, variances.turn_rad2 + parts.dot(reach));
-  const Vector2d gain = reach / (parts.dot(reach) + weighed);
-  turn_covariance_ -= gain * reach.transpose();
-  turn_covariance_ = (0.5 * (turn_covariance_ + turn_covariance_.transpose())).eval();
-  calibration_.turn_scale =
-      bounded(calibration_.turn_scale + gain.x() * error.turn_rad, 1.0, sigmas.x());
-  calibration_.turn_rad_per_m =
-      bounded(calibration_.turn_rad_per_m + gain.y() * error.turn_rad, 0.0, sigmas.y());
+  const Vector2d drive_first(odometry.drive_m, odometry.turn_rad);
+  const Vector2d turn_first(odometry.turn_rad, odometry.drive_m);
+  drive_.learn(drive_first, error.drive_m, variances.drive_m2);
+  slide_.learn(drive_first, error.slide_m, variances.slide_m2);
+  turn_.learn(turn_first, error.turn_rad, variances.turn_rad2);
 }
 
 double MotionModel::climbed(double value, double first, double change) const {

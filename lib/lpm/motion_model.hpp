@@ -2,6 +2,7 @@
 
 #include "base/result.hpp"
 #include "geometry/gaussian_pose.hpp"
+#include "lpm/linear_error.hpp"
 
 namespace cairn {
 
@@ -22,10 +23,13 @@ struct MotionNoise {
 
 /// What odometry gets wrong always in the same way.
 struct OdometryCalibration {
-  double drive_scale = 1.0;     ///< True metres per metre of odometry.
-  double turn_scale = 1.0;      ///< True radians per radian of odometry.
-  double turn_rad_per_m = 0.0;  ///< True turn per metre driven by odometry: unlike wheels.
-  double slide_m_per_m = 0.0;   ///< To the left per metre driven: a laser mounted askew.
+  double drive_scale = 1.0;      ///< True metres per metre of odometry.
+  double turn_scale = 1.0;       ///< True radians per radian of odometry.
+  double turn_rad_per_m = 0.0;   ///< Turn per metre driven: wheels that are not alike.
+  double slide_m_per_m = 0.0;    ///< To the left per metre driven: a laser mounted askew.
+  double slide_m_per_rad = 0.0;  ///< To the left per radian turned: so far ahead of where its
+                                 ///< mounting pose says is the laser, or the axle behind.
+  double drive_m_per_rad = 0.0;  ///< Ahead per radian turned: the laser is so far to the right.
 };
 
 /// How the motion model learns. In the configuration file: the object "lpm.motion_learning".
@@ -42,7 +46,8 @@ struct MotionLearningOptions {
   double turn_scale_sigma = 0.10;             ///< Of 1, beforehand. [1e-4, 1]
   double turn_sigma_rad_per_m = 0.05;         ///< Of 0, beforehand. [1e-4, 1]
   double slide_sigma_m_per_m = 0.02;          ///< Of 0, beforehand. [1e-4, 1]
-  double bound_sigmas = 5.0;  ///< Calibration never leaves this many of its sigmas. [1, 10]
+  double lever_sigma_m = 0.05;  ///< Of both levers of a turn, of 0, beforehand. [1e-4, 1]
+  double bound_sigmas = 5.0;    ///< Calibration never leaves this many of its sigmas. [1, 10]
 };
 
 /// Names every field that is out of range, with its value.
@@ -77,7 +82,7 @@ class MotionModel {
   void skip();
 
   [[nodiscard]] const MotionNoise& noise() const { return noise_; }
-  [[nodiscard]] const OdometryCalibration& calibration() const { return calibration_; }
+  [[nodiscard]] OdometryCalibration calibration() const;
   [[nodiscard]] int lessons() const { return lessons_; }
 
  private:
@@ -114,10 +119,9 @@ class MotionModel {
 
   MotionLearningOptions options_;
   MotionNoise noise_;
-  OdometryCalibration calibration_;
-  double drive_scale_variance_ = 0.0;
-  double slide_variance_ = 0.0;
-  Eigen::Matrix2d turn_covariance_ = Eigen::Matrix2d::Zero();  // of turn_scale, turn_rad_per_m
+  LinearError drive_;  // by drive and turn
+  LinearError slide_;  // by drive and turn
+  LinearError turn_;   // by turn and drive
   Lesson lesson_;
   int lessons_ = 0;
 };

@@ -49,7 +49,9 @@ Lesson a_step(const Wheels& wheels, double drive_m, double turn_rad, std::mt1993
   };
   Lesson lesson;
   lesson.odometry = arc(drive_m, 0.0, turn_rad);
-  lesson.truth = arc(true_drive_m, truth.slide_m_per_m * drive_m, true_turn_rad);
+  lesson.truth =
+      arc(true_drive_m + truth.drive_m_per_rad * turn_rad,
+          truth.slide_m_per_m * drive_m + truth.slide_m_per_rad * turn_rad, true_turn_rad);
   lesson.matched = seen(lesson.truth, 0.003, 0.002, random);
   return lesson;
 }
@@ -77,13 +79,19 @@ TEST(MotionModel, LearnsWhatOdometryGetsWrongAlways) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> share(-1.0, 1.0);
     Wheels wheels;
-    wheels.truth = {1.0 + 0.1 * share(random), 1.0 + 0.2 * share(random), 0.08 * share(random),
-                    0.03 * share(random)};
+    wheels.truth.drive_scale = 1.0 + 0.1 * share(random);
+    wheels.truth.turn_scale = 1.0 + 0.2 * share(random);
+    wheels.truth.turn_rad_per_m = 0.08 * share(random);
+    wheels.truth.slide_m_per_m = 0.03 * share(random);
+    wheels.truth.slide_m_per_rad = 0.2 * share(random);
+    wheels.truth.drive_m_per_rad = 0.1 * share(random);
     const OdometryCalibration found = taught(wheels, 3'000, &random).calibration();
     EXPECT_NEAR(found.drive_scale, wheels.truth.drive_scale, 0.015);
     EXPECT_NEAR(found.turn_scale, wheels.truth.turn_scale, 0.03);
     EXPECT_NEAR(found.turn_rad_per_m, wheels.truth.turn_rad_per_m, 0.015);
     EXPECT_NEAR(found.slide_m_per_m, wheels.truth.slide_m_per_m, 0.01);
+    EXPECT_NEAR(found.slide_m_per_rad, wheels.truth.slide_m_per_rad, 0.01);
+    EXPECT_NEAR(found.drive_m_per_rad, wheels.truth.drive_m_per_rad, 0.02);
   }
 }
 
