@@ -11,6 +11,8 @@
 
 #include "base/check.hpp"
 #include "base/validator.hpp"
+#include "lpm/match_score.hpp"
+#include "lpm/surface_points.hpp"
 
 namespace cairn {
 namespace {
@@ -74,34 +76,17 @@ ParticleMatcher::ParticleMatcher(const ScanMatchOptions& options, const Particle
 }
 
 void ParticleMatcher::take(const LaserScan& scan) {
-  returns_.clear();
   ++scans_;
   matches_ = 0;
   best_score_ = -1.0;
   left_open_ = std::move(next_left_open_);
   next_left_open_.clear();
-  const double far_m = std::min(options_.max_match_range_m, scan.max_range_m);
-  const double spacing2_m2 = options_.point_spacing_m * options_.point_spacing_m;
-  Vector2d last = Vector2d::Constant(1e9);
-  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
-    const double range_m = static_cast<double>(scan.ranges_m[i]);
-    if (!(range_m <= far_m)) {
-      continue;
-    }
-    const double bearing_rad = static_cast<double>(scan.bearings_rad[i]);
-    const Vector2d p = scan.T_robot_laser *
-                       Vector2d(range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad));
-    if ((p - last).squaredNorm() >= spacing2_m2) {
-      returns_.push_back(p);
-      last = p;
-    }
-  }
-  few_returns_.clear();
-  const std::size_t step = 1 + returns_.size() / static_cast<std::size_t>(particles_.max_returns);
-  for (std::size_t i = 0; i < returns_.size(); i += step) {
-    few_returns_.push_back(returns_[i]);
-  }
-  weight_ = options_.independent_share * static_cast<double>(step);
+  returns_ = surface_points_of(scan, options_.point_spacing_m, options_.max_match_range_m);
+  few_returns_ = some_of(returns_, static_cast<std::size_t>(particles_.max_returns));
+  weight_ = few_returns_.empty()
+                ? 0.0
+                : options_.independent_share * static_cast<double>(returns_.size()) /
+                      static_cast<double>(few_returns_.size());
 }
 
 bool ParticleMatcher::is_blocked() const {
@@ -149,7 +134,7 @@ ScanMatch ParticleMatcher::filtered(const ScrollingMap& map,
   match.fit.information = information_gained(prior.covariance, posterior.covariance);
   match.fit.cost = 0.5 * posterior.mean.dot(prior.covariance.inverse() * posterior.mean) -
                    log_likelihood(map.walls(), match.fit.T_lpm_robot);
-  judge(map, &match);
+  judge(map, returns_, kOnWallInSigmas * options_.hit_sigma_m, &match);
   *left_open = std::move(belief.particles);
   // Along an endless corridor the belief would grow without bounds.
   const double spread_m = std::sqrt(posterior.covariance.topLeftCorner<2, 2>().trace());
@@ -211,7 +196,7 @@ double ParticleMatcher::log_likelihood(const DistanceField& walls, const Pose2& 
   // log(1 + a) + log(1 + b) = log((1 + a) (1 + b)): a logarithm for many returns.
   double sum = 0.0;
   double product = 1.0;
-  for (const Vector2d& p : few_returns_) {
+  for (const auto& [p, normal] : few_returns_) {
     const Vector2d at(pose.x() + c * p.x() - s * p.y(), pose.y() + s * p.x() + c * p.y());
     const double share = walls.sample(at).distance_m / scale_m;
     product *= 1.0 + share * share;
@@ -303,22 +288,6 @@ ParticleMatcher::Moments ParticleMatcher::moments_of(const std::vector<Vector3d>
   moments.covariance.diagonal() +=
       Vector3d(kLeastSigma_m, kLeastSigma_m, kLeastSigma_rad).cwiseAbs2();
   return moments;
-}
-
-void ParticleMatcher::judge(const ScrollingMap& map, ScanMatch* match) const {
-  const GridGeometry& geometry = map.grid().geometry();
-  const double on_wall_m = std::max(kOnWallInSigmas * options_.hit_sigma_m, geometry.cell_m);
-  int known = 0;
-  int on_wall = 0;
-  for (const Vector2d& p : returns_) {
-    const Cell c = geometry.cell_at(match->fit.T_lpm_robot * p);
-    const bool is_on_wall = map.walls().distance_m(c) <= on_wall_m;
-    on_wall += is_on_wall ? 1 : 0;
-    known += is_on_wall || map.grid().state(c) != CellState::kUnknown ? 1 : 0;
-  }
-  match->score = known > 0 ? static_cast<double>(on_wall) / known : 0.0;
-  match->known_share =
-      returns_.empty() ? 0.0 : static_cast<double>(known) / static_cast<double>(returns_.size());
 }
 
 }  // namespace cairn

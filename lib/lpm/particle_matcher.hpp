@@ -82,15 +82,14 @@ class ParticleMatcher {
   [[nodiscard]] double log_likelihood(const DistanceField& walls, const Pose2& pose) const;
   [[nodiscard]] double next_temper(const Belief& belief, double temper) const;
   void resample(double temper_step, SplitRandom* random, Belief* belief) const;
-  void judge(const ScrollingMap& map, ScanMatch* match) const;
   [[nodiscard]] static Moments moments_of(const std::vector<Vector3d>& particles);
 
   ScanMatchOptions options_;
   ParticleOptions particles_;
   SplitRandom random_;
-  std::vector<Vector2d> returns_;      // robot frame
-  std::vector<Vector2d> few_returns_;  // weighed per particle
-  double weight_ = 0.0;                // of one of the few, in independent returns
+  std::vector<SurfacePoint> returns_;      // robot frame
+  std::vector<SurfacePoint> few_returns_;  // weighed per particle
+  double weight_ = 0.0;                    // of one of the few, in independent returns
   std::uint64_t scans_ = 0;
   std::uint64_t matches_ = 0;             // of this scan
   double best_score_ = -1.0;              // of the matches of this scan
