@@ -10,8 +10,6 @@ namespace cairn {
 namespace {
 
 constexpr double kQuarterTurn = 0.5 * kPi;
-// Walls in any direction would spread by 0.58 of the reach around a canonical direction.
-constexpr double kDisagreement = 0.4;
 
 /// The same direction modulo 90 degrees, in [-pi/4, pi/4].
 double folded(double angle_rad) {
@@ -28,6 +26,7 @@ Status validate(const WallOrientationOptions& options) {
       .positive("segment.greatest_gap_m", options.segment.greatest_gap_m)
       .positive("segment.max_range_m", options.segment.max_range_m)
       .within("canonical_rad", options.canonical_rad, 0.01, 0.26)
+      .within("narrow_rad", options.narrow_rad, 0.005, options.canonical_rad)
       .within("least_aligned_share", options.least_aligned_share, 0.01, 1.0)
       .within("least_scan_share", options.least_scan_share, 0.01, 1.0)
       .positive("least_scan_length_m", options.least_scan_length_m)
@@ -35,6 +34,9 @@ Status validate(const WallOrientationOptions& options) {
       .positive("memory_length_m", options.memory_length_m)
       .within("gather_every_m", options.gather_every_m, 0.0, 100.0)
       .within("gather_every_rad", options.gather_every_rad, 0.0, 10.0)
+      .positive("jump_rad", options.jump_rad)
+      .within("drift_rad_per_m", options.drift_rad_per_m, 0.0, 10.0)
+      .within("drift_rad_per_rad", options.drift_rad_per_rad, 0.0, 10.0)
       .positive("wall_sigma_rad", options.wall_sigma_rad)
       .positive("least_sigma_rad", options.least_sigma_rad)
       .status();
@@ -47,7 +49,17 @@ WallOrientation::WallOrientation(const WallOrientationOptions& options) : option
 std::optional<HeadingMeasurement> WallOrientation::absorb(const LaserScan& scan,
                                                           const Pose2& T_lpm_robot) {
   const std::vector<WallSegment> segments = wall_segments(scan, options_.segment);
-  const auto measurement = measured(segments, T_lpm_robot.theta());
+  move_to(T_lpm_robot);
+  auto measurement = measured(segments, T_lpm_robot.theta());
+  if (measurement) {
+    const double off_rad = turn_between(measurement->theta_rad, T_lpm_robot.theta());
+    if (is_plausible(off_rad)) {
+      last_off_rad_ = off_rad;
+      possible_drift_rad_ = 0.0;
+    } else {
+      measurement.reset();
+    }
+  }
   if (is_due(T_lpm_robot)) {
     T_lpm_gathered_ = T_lpm_robot;
     gather(segments, measurement ? measurement->theta_rad : T_lpm_robot.theta());
@@ -56,41 +68,73 @@ std::optional<HeadingMeasurement> WallOrientation::absorb(const LaserScan& scan,
   return measurement;
 }
 
+void WallOrientation::move_to(const Pose2& T_lpm_robot) {
+  if (T_lpm_last_) {
+    const Pose2 step = T_lpm_last_->inverse() * T_lpm_robot;
+    possible_drift_rad_ += options_.drift_rad_per_m * step.translation().norm() +
+                           options_.drift_rad_per_rad * std::abs(step.theta());
+  }
+  T_lpm_last_ = T_lpm_robot;
+}
+
+bool WallOrientation::is_plausible(double off_rad) const {
+  if (!last_off_rad_) {
+    return true;
+  }
+  // Whoever asks may have taken the last measurement into the pose, or not.
+  const double change_rad = std::min(std::abs(off_rad), std::abs(off_rad - *last_off_rad_));
+  return change_rad <= options_.jump_rad + possible_drift_rad_;
+}
+
+WallOrientation::Mean WallOrientation::mean_around(const std::vector<WallSegment>& segments,
+                                                   double theta_rad,
+                                                   double off_rad,
+                                                   double reach_rad) const {
+  Mean mean;
+  double weights = 0.0;
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const WallSegment& segment : segments) {
+    const double rest_rad =
+        folded(segment.direction_rad + theta_rad - direction_->direction_rad - off_rad);
+    if (std::abs(rest_rad) > reach_rad) {
+      continue;
+    }
+    const double weight = 1.0 / (segment.sigma_rad * segment.sigma_rad +
+                                 options_.wall_sigma_rad * options_.wall_sigma_rad);
+    mean.length_m += segment.length_m;
+    weights += weight;
+    sum += weight * rest_rad;
+    squares += weight * rest_rad * rest_rad;
+  }
+  if (weights > 0.0) {
+    const double middle_rad = sum / weights;
+    // Walls that agree less than they should make the mean as much worse.
+    const double spread2 = std::max(squares / weights - middle_rad * middle_rad, 0.0);
+    mean.off_rad = off_rad + middle_rad;
+    mean.sigma_rad = std::sqrt(std::max(1.0 / weights, spread2));
+  }
+  return mean;
+}
+
 std::optional<HeadingMeasurement> WallOrientation::measured(
     const std::vector<WallSegment>& segments, double theta_rad) const {
   if (!direction_) {
     return std::nullopt;
   }
   double all_m = 0.0;
-  double aligned_m = 0.0;
-  double weights = 0.0;
-  double sum = 0.0;
-  double squares = 0.0;
   for (const WallSegment& segment : segments) {
-    const double off_rad = folded(segment.direction_rad + theta_rad - direction_->direction_rad);
     all_m += segment.length_m;
-    if (std::abs(off_rad) > options_.canonical_rad) {
-      continue;
-    }
-    aligned_m += segment.length_m;
-    const double weight = 1.0 / (segment.sigma_rad * segment.sigma_rad +
-                                 options_.wall_sigma_rad * options_.wall_sigma_rad);
-    weights += weight;
-    sum += weight * off_rad;
-    squares += weight * off_rad * off_rad;
   }
-  if (aligned_m < options_.least_scan_length_m || aligned_m < options_.least_scan_share * all_m) {
+  // First all that may belong to the directions, then those that agree with each other.
+  const Mean wide = mean_around(segments, theta_rad, 0.0, options_.canonical_rad);
+  const Mean mean = mean_around(segments, theta_rad, wide.off_rad, options_.narrow_rad);
+  if (mean.length_m < options_.least_scan_length_m ||
+      mean.length_m < options_.least_scan_share * all_m) {
     return std::nullopt;
   }
-  const double off_rad = sum / weights;
-  // Walls that agree less than they should make the measurement as much worse.
-  const double spread2 = std::max(squares / weights - off_rad * off_rad, 0.0);
-  const double sigma_rad = std::sqrt(std::max(1.0 / weights, spread2));
-  if (sigma_rad > kDisagreement * options_.canonical_rad) {
-    return std::nullopt;
-  }
-  return HeadingMeasurement{wrap_angle(theta_rad - off_rad),
-                            std::max(sigma_rad, options_.least_sigma_rad)};
+  return HeadingMeasurement{wrap_angle(theta_rad - mean.off_rad),
+                            std::max(mean.sigma_rad, options_.least_sigma_rad)};
 }
 
 bool WallOrientation::is_due(const Pose2& T_lpm_robot) const {
@@ -118,7 +162,7 @@ void WallOrientation::gather(const std::vector<WallSegment>& segments, double th
 }
 
 double WallOrientation::length_around(int bin) const {
-  const int reach = static_cast<int>(options_.canonical_rad / kQuarterTurn * kBins);
+  const int reach = static_cast<int>(options_.narrow_rad / kQuarterTurn * kBins);
   double length_m = 0.0;
   for (int i = bin - reach; i <= bin + reach; ++i) {
     length_m += length_m_[static_cast<std::size_t>((i + kBins) % kBins)];
@@ -150,7 +194,7 @@ void WallOrientation::find_direction() {
     for (int bin = 0; bin < kBins; ++bin) {
       const double length_m = length_m_[static_cast<std::size_t>(bin)];
       const double off_rad = folded(direction_of(bin) - direction_rad);
-      if (std::abs(off_rad) <= options_.canonical_rad) {
+      if (std::abs(off_rad) <= options_.narrow_rad) {
         sum += length_m * off_rad;
         aligned_m += length_m;
       }

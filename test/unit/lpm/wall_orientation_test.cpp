@@ -155,6 +155,22 @@ TEST(WallOrientation, IsNotHarmedByAnObliqueWall) {
   EXPECT_LT(outcome.worst_heading_error_rad, 0.04);
 }
 
+TEST(WallOrientation, IsNotHarmedByAWingThatIsTurnedSlightly) {
+  std::vector<Wall> walls;
+  test::add_box({-12.0, -2.0}, {0.0, 2.0}, &walls);
+  walls.erase(walls.begin() + 1);  // open to the wing
+  std::vector<Wall> wing;
+  test::add_box({0.0, -2.0}, {12.0, 2.0}, &wing);
+  wing.pop_back();
+  const Pose2 turn(0.0, 0.0, 0.1);
+  for (const Wall& wall : wing) {
+    walls.push_back({turn * wall.from, turn * wall.to});
+  }
+  const Outcome outcome = drive(
+      walls, 600, [](int step) { return up_and_down(step, 0.0); }, 0.0);
+  EXPECT_LT(outcome.worst_heading_error_rad, 0.05);
+}
+
 TEST(WallOrientation, SaysNothingBeforeItHasSeenEnough) {
   WallOrientation orientation;
   SimulatedLaser laser(right_angled_building(0.0));
