@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <gmock/gmock.h>
 
+#include "lpm/matcher.hpp"
 #include "lpm/particle_matcher.hpp"
 #include "lpm/scan_matcher.hpp"
 #include "simulated_laser.hpp"
@@ -178,6 +179,31 @@ TEST_F(ParticleMatcherTest, HasNoBiasOverSeeds) {
   EXPECT_LT((sum / kSeeds).head<2>().norm(), 0.02);
   EXPECT_LT(std::sqrt(squares.x() / kSeeds), 0.02);
   EXPECT_LT(std::sqrt(squares.y() / kSeeds), 0.02);
+}
+
+TEST(Matcher, IsTheOneThatWasChosen) {
+  EXPECT_EQ(matcher_kind_of("particles"), MatcherKind::kParticles);
+  EXPECT_EQ(matcher_kind_of("correlative"), MatcherKind::kCorrelative);
+  EXPECT_EQ(matcher_kind_of("magic"), std::nullopt);
+  ScrollingMap map{ScrollingMapOptions{}};
+  SimulatedLaser laser(furnished_room(), 4);
+  map.insert(laser.scan(Pose2(), 0.0), Pose2(), 0.0);
+  const LaserScan scan = laser.scan(Pose2(0.05, 0.0, 0.0), 1.0);
+  GaussianPose predicted;
+  predicted.covariance.diagonal() << 0.01, 0.01, 0.0025;
+  ScanMatcher correlative{ScanMatchOptions{}};
+  ParticleMatcher particles{ScanMatchOptions{}};
+  Matcher chosen(MatcherKind::kCorrelative, {}, {});
+  Matcher other(MatcherKind::kParticles, {}, {});
+  correlative.take(scan);
+  particles.take(scan);
+  chosen.take(scan);
+  other.take(scan);
+  EXPECT_FALSE(chosen.is_blocked());
+  EXPECT_EQ(chosen.match(map, predicted).fit.T_lpm_robot,
+            correlative.match(map, predicted).fit.T_lpm_robot);
+  EXPECT_EQ(other.match(map, predicted).fit.T_lpm_robot,
+            particles.match(map, predicted).fit.T_lpm_robot);
 }
 
 TEST(SplitRandom, StreamsDoNotDependOnWhatWasDrawn) {

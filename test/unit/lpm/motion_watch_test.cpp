@@ -39,7 +39,11 @@ struct Named {
   std::map<MotionFault, int> after;
 };
 
-Named drive(unsigned seed, const Spoil& spoil, int fault_steps = kFaultSteps, int steps = 230) {
+Named drive(unsigned seed,
+            const Spoil& spoil,
+            int fault_steps = kFaultSteps,
+            int steps = 230,
+            double noise = 1.0) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   MotionModel model;
@@ -50,7 +54,8 @@ Named drive(unsigned seed, const Spoil& spoil, int fault_steps = kFaultSteps, in
     turn_rad = 0.9 * turn_rad + 0.03 * normal(random);
     World world;
     world.truth = arc(0.1, turn_rad);
-    world.odometry = arc(0.104 + 0.004 * normal(random), 1.05 * turn_rad + 0.006 * normal(random));
+    world.odometry = arc(0.104 + 0.004 * noise * normal(random),
+                         1.05 * turn_rad + 0.006 * noise * normal(random));
     const bool is_faulty = i >= kFaultAt && i < kFaultAt + fault_steps;
     world.matched = world.truth;
     if (is_faulty) {
