@@ -63,6 +63,8 @@ class OccupancyGrid {
       : geometry_(geometry), log_odds_(geometry.cell_count(), LogOdds{0}) {}
 
   [[nodiscard]] const GridGeometry& geometry() const { return geometry_; }
+  /// Lays the grid elsewhere in its frame; the cells stay as they are.
+  void move_origin(const Vector2d& origin_m) { geometry_.origin_m = origin_m; }
   [[nodiscard]] bool contains(Cell c) const { return geometry_.contains(c); }
 
   /// @pre contains(c)

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "base/check.hpp"
-
 namespace cairn {
 namespace {
 
@@ -39,11 +37,21 @@ void CorrelativeSearch::prepare(const DistanceField& walls,
   geometry_.origin_m = whole.origin_m + whole.cell_m * Vector2d(low.x, low.y);
   geometry_.width = high.x - low.x;
   geometry_.height = high.y - low.y;
-  pyramid_.resize(kLevels);
   take_walls(walls, hit_sigma_m, low);
   for (int level = 1; level < kLevels; ++level) {
     raise_level(level);
   }
+  for (int level = 1; level < kLevels; ++level) {
+    widen_level(level);
+  }
+}
+
+std::size_t CorrelativeSearch::memory_bytes() const {
+  std::size_t bytes = points_.capacity() * sizeof(Cell) + open_.capacity() * sizeof(Candidate);
+  for (const std::vector<std::uint8_t>& level : pyramid_) {
+    bytes += level.capacity();
+  }
+  return bytes;
 }
 
 void CorrelativeSearch::take_walls(const DistanceField& walls, double hit_sigma_m, Cell low) {
@@ -54,40 +62,53 @@ void CorrelativeSearch::take_walls(const DistanceField& walls, double hit_sigma_
     likelihood[squared] = static_cast<std::uint8_t>(std::lround(kFullScore * std::exp(exponent)));
   }
   pyramid_[0].resize(geometry_.cell_count());
+  widths_[0] = geometry_.width;
   for (int y = 0; y < geometry_.height && geometry_.width > 0; ++y) {
-    const std::uint8_t* const from =
-        walls.squared().data() + walls.geometry().index_of({low.x, low.y + y});
-    std::uint8_t* const row = pyramid_[0].data() + geometry_.index_of({0, y});
-    std::transform(from, from + geometry_.width, row,
-                   [&](std::uint8_t squared) { return likelihood[squared]; });
+    walls.look_up({low.x, low.y + y}, geometry_.width, likelihood,
+                  pyramid_[0].data() + geometry_.index_of({0, y}));
   }
 }
 
+/// Maxima over the cells of the level below, two by two.
 void CorrelativeSearch::raise_level(int level) {
-  const int width = geometry_.width;
-  const int height = geometry_.height;
-  const int half = 1 << (level - 1);
-  const std::vector<std::uint8_t>& below = pyramid_[static_cast<std::size_t>(level - 1)];
-  std::vector<std::uint8_t>& here = pyramid_[static_cast<std::size_t>(level)];
-  here.resize(below.size());
-  for (int y = 0; y < height && width > 0; ++y) {
-    const std::uint8_t* const lower = below.data() + geometry_.index_of({0, y});
-    const bool has_upper = y + half < height;
-    const std::uint8_t* const upper = has_upper ? lower + half * width : lower;
-    std::uint8_t* const row = here.data() + geometry_.index_of({0, y});
-    for (int x = 0; x + half < width; ++x) {
-      row[x] = std::max(std::max(lower[x], lower[x + half]), std::max(upper[x], upper[x + half]));
+  const auto at = static_cast<std::size_t>(level);
+  const int below_width = widths_[at - 1];
+  const int below_height = height_of(level - 1);
+  const int width = (below_width + 1) / 2;
+  const int height = height_of(level);
+  widths_[at] = width;
+  pyramid_[at].resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  std::uint8_t* here = pyramid_[at].data();
+  for (int y = 0; y < height; ++y) {
+    const std::uint8_t* const lower =
+        pyramid_[at - 1].data() + static_cast<std::ptrdiff_t>(2 * y) * below_width;
+    const std::uint8_t* const upper = 2 * y + 1 < below_height ? lower + below_width : lower;
+    for (int x = 0; x < width; ++x) {
+      const int left = 2 * x;
+      const int right = std::min(left + 1, below_width - 1);
+      *here++ = std::max(std::max(lower[left], lower[right]), std::max(upper[left], upper[right]));
     }
-    for (int x = std::max(0, width - half); x < width; ++x) {
-      row[x] = std::max(lower[x], upper[x]);
+  }
+}
+
+/// From maxima over blocks to those over each block and its neighbours to the right and above.
+void CorrelativeSearch::widen_level(int level) {
+  const auto at = static_cast<std::size_t>(level);
+  const int width = widths_[at];
+  const int height = height_of(level);
+  for (int y = 0; y < height; ++y) {
+    std::uint8_t* const row = pyramid_[at].data() + static_cast<std::ptrdiff_t>(y) * width;
+    const std::uint8_t* const above = y + 1 < height ? row + width : row;
+    for (int x = 0; x < width; ++x) {
+      const int right = std::min(x + 1, width - 1);
+      row[x] = std::max(std::max(row[x], row[right]), std::max(above[x], above[right]));
     }
   }
 }
 
 SearchResult CorrelativeSearch::find(const std::vector<SurfacePoint>& points,
                                      const SearchWindow& window) {
-  CAIRN_CHECK(!pyramid_.empty());
-  if (points.empty()) {
+  if (points.empty() || geometry_.cell_count() == 0) {
     return {window.center, 0.0};
   }
   place_points(points, window);
@@ -127,11 +148,13 @@ void CorrelativeSearch::place_points(const std::vector<SurfacePoint>& points,
   for (const SurfacePoint& point : points) {
     farthest_m = std::max(farthest_m, point.p.norm());
   }
+  const int step = 1 << window.step_level;
+  const double step_m = geometry_.cell_m * step;
   constexpr int kMaxAngles = 2'000;
-  const int wanted = static_cast<int>(std::ceil(window.turn_rad * farthest_m / geometry_.cell_m));
+  const int wanted = static_cast<int>(std::ceil(window.turn_rad * farthest_m / step_m));
   angle_count_ = std::clamp(wanted, 0, kMaxAngles);
   angle_step_rad_ = angle_count_ > 0 ? window.turn_rad / angle_count_ : 0.0;
-  range_cells_ = static_cast<int>(std::ceil(window.range_m / geometry_.cell_m));
+  range_cells_ = step * static_cast<int>(std::ceil(window.range_m / step_m));
   point_count_ = points.size();
   points_.clear();
   for (int angle = -angle_count_; angle <= angle_count_; ++angle) {
@@ -146,20 +169,22 @@ void CorrelativeSearch::place_points(const std::vector<SurfacePoint>& points,
 }
 
 double CorrelativeSearch::likelihood_sum(const Candidate& block) const {
-  const std::vector<std::uint8_t>& level = pyramid_[static_cast<std::size_t>(block.level)];
+  const auto at = static_cast<std::size_t>(block.level);
+  const std::uint8_t* const level = pyramid_[at].data();
+  const int width = widths_[at];
+  const int last = (1 << block.level) - 1;
   const auto first = static_cast<std::size_t>(block.angle + angle_count_) * point_count_;
-  const int size = 1 << block.level;
   std::int64_t sum = 0;
   for (std::size_t i = first; i < first + point_count_; ++i) {
-    int x = points_[i].x + block.x;
-    int y = points_[i].y + block.y;
-    if (x <= -size || y <= -size || x >= geometry_.width || y >= geometry_.height) {
+    const int x = points_[i].x + block.x;
+    const int y = points_[i].y + block.y;
+    if (x + last < 0 || y + last < 0 || x >= geometry_.width || y >= geometry_.height) {
       continue;
     }
-    // A block that begins left of or below the grid is bounded by the one at its border.
-    x = std::max(x, 0);
-    y = std::max(y, 0);
-    sum += level[geometry_.index_of({x, y})];
+    // A block that begins left of or below the grid is held by the first ones of the grid.
+    const int column = std::max(x, 0) >> block.level;
+    const int row = std::max(y, 0) >> block.level;
+    sum += level[static_cast<std::ptrdiff_t>(row) * width + column];
   }
   return static_cast<double>(sum);
 }
@@ -188,8 +213,13 @@ void CorrelativeSearch::branch(const Candidate& block, const SearchWindow& windo
   if (block.bound <= best_.bound) {
     return;
   }
-  if (block.level == 0) {
-    best_ = block;
+  if (block.level == window.step_level) {
+    Candidate leaf = block;
+    leaf.level = 0;
+    leaf.bound = bound_of(leaf, window);
+    if (leaf.bound > best_.bound) {
+      best_ = leaf;
+    }
     return;
   }
   const std::size_t first = open_.size();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct SearchWindow {
   double sigma_m = 1e3;            ///< Prior belief around the centre; large: none.
   double sigma_rad = 1e3;          ///< Prior belief around the centre; large: none.
   double independent_share = 0.1;  ///< Share of the points that count against the prior. (0, 1]
+  int step_level = 0;              ///< The raster's side is 2^step_level cells. [0, 4]
 };
 
 /// The best pose of a window on a raster of cells and angles.
@@ -24,8 +26,8 @@ struct SearchResult {
   double score = 0.0;  ///< Mean likelihood of the points on the raster, [0, 1].
 };
 
-/// Multi-resolution correlative search: exact over its window, raster of one cell and of the angle
-/// that moves the farthest point by one cell.
+/// Multi-resolution correlative search: the best pose of a raster over its window, exactly. The
+/// raster's side is a cell or a few, its angle the one that moves the farthest point by as much.
 ///
 /// Source: Olson, "Real-time correlative scan matching", ICRA 2009; bounds by max-pyramids and
 /// branch and bound as in Hess et al., "Real-time loop closure in 2D lidar SLAM", ICRA 2016,
@@ -46,6 +48,8 @@ class CorrelativeSearch {
   [[nodiscard]] SearchResult find(const std::vector<SurfacePoint>& points,
                                   const SearchWindow& window);
 
+  [[nodiscard]] std::size_t memory_bytes() const;
+
  private:
   struct Candidate {
     std::int32_t angle = 0;
@@ -59,6 +63,10 @@ class CorrelativeSearch {
   [[nodiscard]] static bool is_worse(const Candidate& a, const Candidate& b);
   void take_walls(const DistanceField& walls, double hit_sigma_m, Cell low);
   void raise_level(int level);
+  void widen_level(int level);
+  [[nodiscard]] int height_of(int level) const {
+    return (geometry_.height + (1 << level) - 1) >> level;
+  }
   void place_points(const std::vector<SurfacePoint>& points, const SearchWindow& window);
   [[nodiscard]] double bound_of(const Candidate& block, const SearchWindow& window) const;
   [[nodiscard]] double likelihood_sum(const Candidate& block) const;
@@ -67,8 +75,11 @@ class CorrelativeSearch {
 
   static constexpr int kLevels = 5;
   GridGeometry geometry_;
-  std::vector<std::vector<std::uint8_t>> pyramid_;  // [level]: maximum over 2^level x 2^level cells
-  int angle_count_ = 0;                             // on either side of the centre
+  // [0]: the likelihood of every cell; [level]: on every 2^level-th cell, the maximum over the
+  // 2^(level + 1) x 2^(level + 1) cells from there on, which hold every block of that level.
+  std::array<std::vector<std::uint8_t>, kLevels> pyramid_;
+  std::array<int, kLevels> widths_{};
+  int angle_count_ = 0;  // on either side of the centre
   double angle_step_rad_ = 0.0;
   int range_cells_ = 0;
   std::size_t point_count_ = 0;

@@ -6,10 +6,52 @@
 namespace cairn {
 
 DistanceField::DistanceField(const GridGeometry& geometry)
-    : geometry_(geometry), squared_(geometry.cell_count(), kFar) {
+    : geometry_(geometry), nearest_(geometry.width, geometry.height, kNone) {
   for (std::size_t squared = 0; squared < distance_m_.size(); ++squared) {
     const double cells = std::min(std::sqrt(static_cast<double>(squared)), 1.0 * kReachCells);
     distance_m_[squared] = cells * geometry.cell_m;
+  }
+  squared_of_.fill(kFar);
+  std::array<std::int16_t, kFar> rank{};
+  std::int16_t ranks = 0;
+  for (int squared = 0; squared < kFar; ++squared) {
+    for (int x = 0; x * x <= squared; ++x) {
+      const int y = static_cast<int>(std::lround(std::sqrt(squared - x * x)));
+      if (x * x + y * y == squared) {
+        squared_of_[static_cast<std::size_t>(ranks)] = static_cast<std::uint8_t>(squared);
+        rank[static_cast<std::size_t>(squared)] = ranks++;
+        break;
+      }
+    }
+  }
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const int x = i % kSide - kReachCells;  // of the cell, as seen from the wall
+    const int y = i / kSide - kReachCells;
+    const int squared = x * x + y * y;
+    offset_x_[at] = static_cast<std::int8_t>(-x);
+    offset_y_[at] = static_cast<std::int8_t>(-y);
+    stamp_[at] = squared >= kFar
+                     ? kNone
+                     : static_cast<std::int16_t>(
+                           (rank[static_cast<std::size_t>(squared)] << kOffsetBits) | i);
+  }
+}
+
+void DistanceField::look_up(Cell first,
+                            int count,
+                            const std::array<std::uint8_t, kFar + 1>& by_squared,
+                            std::uint8_t* values) const {
+  std::array<std::uint8_t, kRanks> by_rank{};
+  for (std::size_t rank = 0; rank < kRanks; ++rank) {
+    by_rank[rank] = by_squared[squared_of_[rank]];
+  }
+  for (int done = 0; done < count;) {
+    const int run = nearest_.run_length({first.x + done, first.y}, count - done);
+    const std::int16_t* const nearest = &nearest_[{first.x + done, first.y}];
+    std::transform(nearest, nearest + run, values + done,
+                   [&](std::int16_t cell) { return by_rank[rank_of(cell)]; });
+    done += run;
   }
 }
 
@@ -20,12 +62,14 @@ DistanceField::Sample DistanceField::sample(const Vector2d& p) const {
   if (c.x < 0 || c.y < 0 || c.x + 1 >= geometry_.width || c.y + 1 >= geometry_.height) {
     return {distance_m_[kFar], Vector2d::Zero(), false};
   }
-  const std::uint8_t* const lower = &squared_[geometry_.index_of(c)];
-  const std::uint8_t* const upper = lower + geometry_.width;
-  const double d00 = distance_m_[lower[0]];
-  const double d10 = distance_m_[lower[1]];
-  const double d01 = distance_m_[upper[0]];
-  const double d11 = distance_m_[upper[1]];
+  const std::uint8_t s00 = squared_cells(c);
+  const std::uint8_t s10 = squared_cells({c.x + 1, c.y});
+  const std::uint8_t s01 = squared_cells({c.x, c.y + 1});
+  const std::uint8_t s11 = squared_cells({c.x + 1, c.y + 1});
+  const double d00 = distance_m_[s00];
+  const double d10 = distance_m_[s10];
+  const double d01 = distance_m_[s01];
+  const double d11 = distance_m_[s11];
   const double fx = u - c.x;
   const double fy = v - c.y;
   const double bottom = d00 + fx * (d10 - d00);
@@ -34,7 +78,7 @@ DistanceField::Sample DistanceField::sample(const Vector2d& p) const {
   sample.distance_m = bottom + fy * (top - bottom);
   sample.gradient =
       Vector2d((d10 - d00) * (1.0 - fy) + (d11 - d01) * fy, top - bottom) / geometry_.cell_m;
-  sample.is_near = std::max({lower[0], lower[1], upper[0], upper[1]}) < kFar;
+  sample.is_near = std::max({s00, s10, s01, s11}) < kFar;
   return sample;
 }
 
@@ -48,11 +92,17 @@ void DistanceField::lower_around(Cell wall, Cell low, Cell high) {
   const int first_y = std::max(low.y, wall.y - kReachCells);
   const int last_y = std::min(high.y, wall.y + kReachCells);
   for (int y = first_y; y <= last_y; ++y) {
-    std::uint8_t* const row = squared_.data() + geometry_.index_of({0, y});
-    const int dy2 = (y - wall.y) * (y - wall.y);
-    for (int x = first_x; x <= last_x; ++x) {
-      const int squared = std::min((x - wall.x) * (x - wall.x) + dy2, 1 * kFar);
-      row[x] = std::min(row[x], static_cast<std::uint8_t>(squared));
+    const std::int16_t* stamp =
+        &stamp_[static_cast<std::size_t>((y - wall.y + kReachCells) * kSide + kReachCells)] +
+        (first_x - wall.x);
+    for (int x = first_x; x <= last_x;) {
+      const int run = nearest_.run_length({x, y}, last_x + 1 - x);
+      std::int16_t* const cells = &nearest_[{x, y}];
+      for (int i = 0; i < run; ++i) {
+        cells[i] = std::min(cells[i], stamp[i]);
+      }
+      x += run;
+      stamp += run;
     }
   }
 }
@@ -66,8 +116,9 @@ void DistanceField::renew(const OccupancyGrid& grid, Cell low, Cell high) {
   Cell to;
   grown(low, high, kReachCells, &from, &to);
   for (int y = from.y; y <= to.y; ++y) {
-    std::uint8_t* const row = squared_.data() + geometry_.index_of({0, y});
-    std::fill(row + from.x, row + to.x + 1, kFar);
+    for (int x = from.x; x <= to.x; ++x) {
+      nearest_[{x, y}] = kNone;
+    }
   }
   Cell wall_from;
   Cell wall_to;
@@ -83,12 +134,8 @@ void DistanceField::renew(const OccupancyGrid& grid, Cell low, Cell high) {
 }
 
 void DistanceField::shift(Cell by) {
-  shift_cells(&squared_, geometry_.width, geometry_.height, by, kFar);
+  nearest_.shift(by);
   geometry_.origin_m += geometry_.cell_m * Vector2d(by.x, by.y);
-}
-
-void DistanceField::clear() {
-  std::fill(squared_.begin(), squared_.end(), kFar);
 }
 
 }  // namespace cairn

@@ -26,9 +26,10 @@ constexpr double kSlip = 25.0;               // squared Mahalanobis of fix and p
 constexpr double kLeastTimeStep_s = 1.0;     // recorded stamps are not to be trusted below this
 constexpr double kSpeedSigma_m_per_s = 0.5;  // for want of odometry
 constexpr double kTurnSigma_rad_per_s = 0.7;
-constexpr double kGoodScore = 0.85;      // a match that leaves no wish for another
-constexpr double kClearlyBetter = 0.05;  // in score
-constexpr double kRadPerTravel_m = 3.0;  // a turn of 1 rad renews the map as so much travel
+constexpr double kGoodScore = 0.85;         // a match that leaves no wish for another
+constexpr double kLeastOfUsualScore = 0.6;  // a sudden fall below it is a wrong match
+constexpr double kClearlyBetter = 0.05;     // in score
+constexpr double kRadPerTravel_m = 3.0;     // a turn of 1 rad renews the map as so much travel
 
 Matrix3d diagonal(double sigma_x_m, double sigma_y_m, double sigma_rad) {
   return Eigen::Vector3d(sigma_x_m * sigma_x_m, sigma_y_m * sigma_y_m, sigma_rad * sigma_rad)
@@ -94,7 +95,14 @@ LocalMapper::LocalMapper(const LpmOptions& options)
 }
 
 LocalFix LocalMapper::absorb(const JoinedScan& joined) {
-  matcher_.take(joined.scan);
+  const LocalFix fix = locate(joined);
+  take_up(fix);
+  return fix;
+}
+
+LocalFix LocalMapper::locate(const JoinedScan& joined) {
+  beams_.take(joined.scan, twist_during(joined), options_.map.max_free_range_m);
+  matcher_.take(beams_);
   LocalFix fix;
   fix.time = joined.scan.time;
   if (!is_started_) {
@@ -118,13 +126,25 @@ LocalFix LocalMapper::absorb(const JoinedScan& joined) {
     }
   }
   advance(joined, fix);
-  draw(joined.scan, fix.note);
   return fix;
+}
+
+Twist LocalMapper::twist_during(const JoinedScan& joined) const {
+  constexpr double kLeast_s = 1e-3;
+  const double dt_s = seconds_between(time_, joined.scan.time);
+  if (T_odom_robot_ && joined.T_odom_robot && dt_s >= kLeast_s && dt_s <= kLeastTimeStep_s) {
+    const Pose2 step = T_odom_robot_->inverse() * *joined.T_odom_robot;
+    if (step.translation().norm() <= options_.motion.max_speed_m_per_s * dt_s &&
+        std::abs(step.theta()) <= options_.motion.max_turn_rate_rad_per_s * dt_s) {
+      return {step.x() / dt_s, step.y() / dt_s, step.theta() / dt_s};
+    }
+  }
+  return {};  // what matches say of the speed must not bend the next scan: it would feed on itself
 }
 
 ScanMatch LocalMapper::best_match(const GaussianPose& predicted, double dt_s) {
   const ScanMatch match = matcher_.match(map_, predicted);
-  if (match.score >= kGoodScore || dt_s <= 0.0) {
+  if (match.score >= kGoodScore || !match.was_searched || dt_s <= 0.0) {
     return match;
   }
   // Odometry that stalls and catches up later is wrong twice; the robot just goes on meanwhile.
@@ -170,7 +190,8 @@ void LocalMapper::settle(const ScanMatch& match, const GaussianPose& predicted, 
     fix->note = FixNote::kNoOverlap;
     return;
   }
-  if (match.score < options_.match.min_explained_share) {
+  if (match.score <
+      std::max(options_.match.min_explained_share, kLeastOfUsualScore * match.usual_score)) {
     fix->note = FixNote::kContradiction;
     return;
   }
@@ -215,27 +236,33 @@ void LocalMapper::advance(const JoinedScan& joined, const LocalFix& fix) {
   refusals_ = is_refused(fix.note) ? refusals_ + 1 : 0;
 }
 
-void LocalMapper::draw(const LaserScan& scan, FixNote note) {
+bool LocalMapper::take_up(const LocalFix& fix) {
   const Pose2 since = T_lpm_drawn_.inverse() * T_lpm_robot_;
   bool is_due = !is_started_ || since.translation().norm() >= options_.insert_every_m ||
                 std::abs(since.theta()) >= options_.insert_every_rad;
-  if (note == FixNote::kBlockedSensor) {
-    return;
+  if (fix.note == FixNote::kBlockedSensor) {
+    return false;
   }
-  if (note == FixNote::kContradiction) {
+  if (fix.note == FixNote::kContradiction) {
     is_due = refusals_ >= options_.refusals_before_restart;
     if (is_due) {
       map_.clear();
+      ++restarts_;
     }
   }
   if (!is_due) {
-    return;
+    return false;
   }
-  map_.insert(scan, T_lpm_robot_, travel_m_);
+  map_.insert(beams_, T_lpm_robot_, travel_m_);
   T_lpm_drawn_ = T_lpm_robot_;
   uncertainty_ = diagonal(kLeastSigma_m, kLeastSigma_m, kLeastSigma_rad);
   refusals_ = 0;
   is_started_ = true;
+  return true;
+}
+
+std::size_t LocalMapper::memory_bytes() const {
+  return map_.memory_bytes() + matcher_.memory_bytes();
 }
 
 void LocalMapper::restore(const LaserScan& scan,

@@ -6,6 +6,7 @@
 #include "geometry/gaussian_pose.hpp"
 #include "grid/occupancy_grid.hpp"
 #include "lpm/lpm_options.hpp"
+#include "lpm/scan_beams.hpp"
 #include "lpm/scan_matcher.hpp"
 #include "lpm/scrolling_map.hpp"
 #include "sensing/scan_joiner.hpp"
@@ -62,9 +63,18 @@ class LocalMapper {
   /// Takes the next scan: every scan gives a fix, matched or refused.
   /// @pre validate(joined.scan).ok()
   LocalFix absorb(const JoinedScan& joined);
+  /// The first half of absorb(): the fix.
+  [[nodiscard]] LocalFix locate(const JoinedScan& joined);
+  /// The second half, with the fix of the first: the map takes up that scan if it should.
+  /// @return whether it did
+  bool take_up(const LocalFix& fix);
 
   /// The occupancy grid around the robot, in the lpm frame. Its origin moves by whole cells.
   [[nodiscard]] const OccupancyGrid& grid() const { return map_.grid(); }
+  /// How often the map was started afresh, since nothing fitted any more.
+  [[nodiscard]] std::int64_t restarts() const { return restarts_; }
+  /// What the map and the search upon it hold.
+  [[nodiscard]] std::size_t memory_bytes() const;
 
   /// Puts back a scan remembered with its pose, without matching, to rebuild the map after a
   /// restart: oldest first. The next scan absorbed is looked for where odometry says that the robot
@@ -75,14 +85,15 @@ class LocalMapper {
                const std::optional<Pose2>& T_odom_robot);
 
  private:
+  [[nodiscard]] Twist twist_during(const JoinedScan& joined) const;
   [[nodiscard]] GaussianPose predicted_motion(const JoinedScan& joined, bool* is_believed) const;
   [[nodiscard]] GaussianPose continued_motion(double dt_s) const;
   [[nodiscard]] ScanMatch best_match(const GaussianPose& predicted, double dt_s);
   void settle(const ScanMatch& match, const GaussianPose& predicted, LocalFix* fix);
-  void draw(const LaserScan& scan, FixNote note);
   void advance(const JoinedScan& joined, const LocalFix& fix);
 
   LpmOptions options_;
+  ScanBeams beams_;  // of the scan taken last
   ScrollingMap map_;
   ScanMatcher matcher_;
   bool is_started_ = false;
@@ -95,6 +106,7 @@ class LocalMapper {
   double speed_m_per_s_ = 0.0;  // ahead, for want of odometry
   double turn_rate_rad_per_s_ = 0.0;
   int refusals_ = 0;
+  std::int64_t restarts_ = 0;
 };
 
 }  // namespace cairn

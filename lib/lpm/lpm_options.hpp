@@ -29,7 +29,7 @@ struct MotionModelOptions {
 
 /// Scan matching against the scrolling map.
 struct ScanMatchOptions {
-  double point_spacing_m = 0.05;      ///< Returns closer together than this are thinned. >= 0
+  double point_spacing_m = 0.02;      ///< Returns closer together than this are thinned. >= 0
   double max_match_range_m = 40.0;    ///< Farther returns are not matched. > 0
   double hit_sigma_m = 0.05;          ///< Spread of a return around the wall. > 0
   double independent_share = 0.2;     ///< Share of returns that count as independent. (0, 1]
@@ -44,8 +44,8 @@ struct LpmOptions {
   ScrollingMapOptions map;
   MotionModelOptions motion;
   ScanMatchOptions match;
-  double insert_every_m = 0.1;      ///< The map takes a scan after this travel, [0, 5]
-  double insert_every_rad = 0.1;    ///< or after this turn. [0, 3.2]
+  double insert_every_m = 0.2;      ///< The map takes a scan after this travel, [0, 5]
+  double insert_every_rad = 0.2;    ///< or after this turn. [0, 3.2]
   double renewal_travel_m = 8.0;    ///< Travel after which the map is another one: per renewal the
                                     ///< error of one match adds to dead reckoning. > 0
   int refusals_before_restart = 5;  ///< So many in a row: the map starts afresh. [1, 1000]

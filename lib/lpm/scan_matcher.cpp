@@ -3,51 +3,78 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "lpm/surface_refinement.hpp"
+
 namespace cairn {
 namespace {
 
-constexpr double kOnWallInSigmas = 2.5;
+constexpr double kOnWall_m = 0.125;
 constexpr double kCertain_m = 0.25;  // sigma up to which the prediction is good to start from
 constexpr double kCertain_rad = 0.20;
 constexpr double kGoodScore = 0.85;  // a match that leaves no wish for a search
 constexpr double kWindowInSigmas = 3.0;
 constexpr double kSearchSigma_m = 0.10;  // of the likelihood on the raster
-constexpr std::size_t kSearchReturns = 150;
-constexpr double kPoorScore = 0.80;      // a match that casts doubt on odometry
+constexpr std::size_t kSearchReturns = 60;
+constexpr int kSearchStepLevel = 1;
+constexpr double kSearchReach_m = 7.0;
+constexpr double kUnusual = 0.15;      // so much below the usual score, a search is due
+constexpr double kVeryUnusual = 0.20;  // so much below, odometry is in doubt
+constexpr double kAgrees = 9.0;        // squared Mahalanobis: as odometry says
+constexpr double kLeastUsual = 0.8;
+constexpr double kUsualShare = 0.1;      // of the last match in what is usual
 constexpr double kDoubt = 25.0;          // then its covariance counts as so much larger
 constexpr double kRefuted = 16.0;        // squared Mahalanobis: odometry was wrong
-constexpr double kClearlyBetter = 0.10;  // in score
-constexpr double kNeighbour_m = 1.0;     // farther returns are no neighbours on a surface
-constexpr double kEdge = 3.0;            // ratio of distances to neighbours across an edge
+constexpr double kAnyHeading_rad = 2.0;  // sigma of a heading nothing is known of
+constexpr double kWholeScore = 0.90;
+constexpr double kHeld_per_m2 = 1.0 / (0.04 * 0.04);
 
 }  // namespace
 
-void ScanMatcher::take(const LaserScan& scan) {
+Matrix3d ScanMatch::covariance(double hit_sigma_m) const {
+  constexpr double kBlind = 1.0;  // information of what is not known at all, 1/m^2 and 1/rad^2
+  const double measured = hit_sigma_m / fit.spread_m;
+  const Matrix3d covariance =
+      (measured * measured * fit.information + kBlind * Matrix3d::Identity()).inverse();
+  return 0.5 * (covariance + covariance.transpose());
+}
+
+void ScanMatcher::take(const ScanBeams& beams) {
   returns_.clear();
   is_prepared_ = false;
-  farthest_m_ = 0.0;
-  const double far_m = std::min(options_.max_match_range_m, scan.max_range_m);
+  const double far2_m2 = options_.max_match_range_m * options_.max_match_range_m;
   const double spacing2_m2 = options_.point_spacing_m * options_.point_spacing_m;
   Vector2d last = Vector2d::Constant(1e9);
-  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
-    const double range_m = static_cast<double>(scan.ranges_m[i]);
-    if (!(range_m <= far_m)) {
-      continue;
-    }
-    const double bearing_rad = static_cast<double>(scan.bearings_rad[i]);
-    const Vector2d p = scan.T_robot_laser *
-                       Vector2d(range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad));
-    if ((p - last).squaredNorm() >= spacing2_m2) {
-      returns_.push_back({p, Vector2d::Zero()});
-      last = p;
-      farthest_m_ = std::max(farthest_m_, p.norm());
+  for (std::size_t i = 0; i < beams.returns().size(); ++i) {
+    const SurfacePoint& point = beams.returns()[i];
+    if ((point.p - last).squaredNorm() >= spacing2_m2 &&
+        (point.p - beams.origins()[i]).squaredNorm() <= far2_m2) {
+      returns_.push_back(point);
+      last = point.p;
     }
   }
-  find_normals();
+}
+
+/// Evenly over the scan; near ones if there are enough, since every angle that tells far ones apart
+/// has to be looked at.
+void ScanMatcher::choose_few() {
+  const auto is_near = [](const SurfacePoint& point) {
+    return point.p.squaredNorm() <= kSearchReach_m * kSearchReach_m;
+  };
+  const auto near =
+      static_cast<std::size_t>(std::count_if(returns_.begin(), returns_.end(), is_near));
+  const bool takes_all = near < returns_.size() / 2;
+  const std::size_t step = 1 + (takes_all ? returns_.size() : near) / kSearchReturns;
   few_returns_.clear();
-  const std::size_t step = 1 + returns_.size() / kSearchReturns;
-  for (std::size_t i = 0; i < returns_.size(); i += step) {
-    few_returns_.push_back(returns_[i]);
+  reach_m_ = 0.0;
+  std::size_t seen = 0;
+  for (const SurfacePoint& point : returns_) {
+    if ((takes_all || is_near(point)) && seen++ % step == 0) {
+      few_returns_.push_back(point);
+      reach_m_ = std::max(reach_m_, point.p.norm());
+    }
   }
 }
 
@@ -55,55 +82,75 @@ bool ScanMatcher::is_blocked() const {
   return returns_.size() < static_cast<std::size_t>(options_.min_returns);
 }
 
-void ScanMatcher::find_normals() {
-  const auto distance_m = [this](std::size_t i, std::size_t j) {
-    return (returns_[j].p - returns_[i].p).norm();
-  };
-  for (std::size_t i = 0; i < returns_.size(); ++i) {
-    const double before_m = i > 0 ? distance_m(i - 1, i) : kNeighbour_m;
-    const double after_m = i + 1 < returns_.size() ? distance_m(i, i + 1) : kNeighbour_m;
-    // Across an edge the neighbour belongs to another surface.
-    const bool takes_before = before_m < kNeighbour_m && before_m < kEdge * after_m;
-    const bool takes_after = after_m < kNeighbour_m && after_m < kEdge * before_m;
-    if (!takes_before && !takes_after) {
-      continue;
-    }
-    const Vector2d along =
-        returns_[takes_after ? i + 1 : i].p - returns_[takes_before ? i - 1 : i].p;
-    returns_[i].normal = Vector2d(-along.y(), along.x()).normalized();
+ScanMatch ScanMatcher::match(const ScrollingMap& map, const GaussianPose& predicted) {
+  ScanMatch match = nearby(map, predicted);
+  const bool is_doubtful = match.score < usual_score_ - kVeryUnusual;
+  doubts_ = is_doubtful ? doubts_ + 1 : 0;
+  // What was looked for in vain is looked for again ever more seldom: the 1st, 2nd, 4th, 8th time.
+  if (is_doubtful && (doubts_ & (doubts_ - 1U)) == 0U) {
+    match = in_doubt(map, predicted, match);
   }
+  match.usual_score = usual_score_;
+  usual_score_ += kUsualShare * (std::max(match.score, kLeastUsual) - usual_score_);
+  return match;
 }
 
-ScanMatch ScanMatcher::match(const ScrollingMap& map, const GaussianPose& predicted) {
-  ScanMatch match = best_match(map, predicted);
-  if (squared_mahalanobis(match.fit.T_lpm_robot, predicted.mean, predicted.covariance) > kRefuted) {
+/// The match that believes odometry, as far as it says that it can be believed.
+ScanMatch ScanMatcher::nearby(const ScrollingMap& map, const GaussianPose& predicted) {
+  ScanMatch match = refined(map, predicted, predicted.mean);
+  const Matrix3d& covariance = predicted.covariance;
+  const auto deviation = [&](const ScanMatch& found) {
+    return squared_mahalanobis(found.fit.T_lpm_robot, predicted.mean, covariance);
+  };
+  const bool is_certain = std::max(covariance(0, 0), covariance(1, 1)) <= kCertain_m * kCertain_m &&
+                          covariance(2, 2) <= kCertain_rad * kCertain_rad;
+  const double wanted =
+      is_certain && deviation(match) <= kAgrees ? usual_score_ - kUnusual : kGoodScore;
+  if (match.score < wanted) {
+    const ScanMatch wider = searched(map, predicted, options_.search_turn_rad);
+    if (wider.fit.cost < match.fit.cost) {
+      match = wider;
+    }
+    match.was_searched = true;
+  }
+  if (deviation(match) > kRefuted) {
     const bool was_searched = match.was_searched;
-    match = refined(map, {predicted.mean, kDoubt * predicted.covariance}, match.fit.T_lpm_robot);
+    match = refined(map, {predicted.mean, kDoubt * covariance}, match.fit.T_lpm_robot);
     match.was_searched = was_searched;
   }
   return match;
 }
 
-ScanMatch ScanMatcher::best_match(const ScrollingMap& map, const GaussianPose& predicted) {
-  ScanMatch match = refined(map, predicted, predicted.mean);
-  const Matrix3d& covariance = predicted.covariance;
-  const bool is_certain = std::max(covariance(0, 0), covariance(1, 1)) <= kCertain_m * kCertain_m &&
-                          covariance(2, 2) <= kCertain_rad * kCertain_rad;
-  if (is_certain && match.score >= kGoodScore) {
-    return match;
+/// Odometry may be plain wrong. What contradicts it must explain clearly more than what does not.
+ScanMatch ScanMatcher::in_doubt(const ScrollingMap& map,
+                                const GaussianPose& predicted,
+                                const ScanMatch& believed) {
+  // At most half of what the belief leaves unexplained may remain so.
+  const auto is_far_better = [&believed](const ScanMatch& match) {
+    const auto unexplained = [](const ScanMatch& m) { return 1.0 - m.score * m.known_share; };
+    return unexplained(match) < 0.5 * unexplained(believed);
+  };
+  ScanMatch match = believed;
+  // A slip, a push.
+  GaussianPose doubted{predicted.mean, kDoubt * predicted.covariance};
+  const ScanMatch slipped = searched(map, doubted, options_.search_turn_rad);
+  if (slipped.score >= kGoodScore && is_far_better(slipped)) {
+    match = slipped;
   }
-  const ScanMatch wider = searched(map, predicted);
-  if (wider.fit.cost < match.fit.cost) {
-    match = wider;
-  }
-  match.was_searched = true;
-  if (match.score < kPoorScore) {
-    // Odometry may be plain wrong: a slip, a push. That takes a clearly better fit.
-    const ScanMatch doubted = searched(map, {predicted.mean, kDoubt * covariance});
-    if (doubted.score > match.score + kClearlyBetter) {
-      match = doubted;
+  if (match.score < usual_score_ - kVeryUnusual) {
+    // Turned by hand, or while nobody looked. A corridor looks the same both ways: the scan has to
+    // be explained nearly whole, and to hold the robot in every direction.
+    doubted.covariance(2, 2) = kAnyHeading_rad * kAnyHeading_rad;
+    const ScanMatch turned = searched(map, doubted, kPi);
+    const double held = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(
+                            Eigen::Matrix2d(turned.fit.information.topLeftCorner<2, 2>()))
+                            .eigenvalues()
+                            .x();
+    if (turned.score >= kWholeScore && held >= kHeld_per_m2 && is_far_better(turned)) {
+      match = turned;
     }
   }
+  match.was_searched = true;
   return match;
 }
 
@@ -111,31 +158,37 @@ ScanMatch ScanMatcher::refined(const ScrollingMap& map,
                                const GaussianPose& predicted,
                                const Pose2& start) const {
   ScanMatch match;
-  match.fit = refine(map.walls(), returns_, predicted, start,
-                     {options_.hit_sigma_m, options_.independent_share});
+  match.fit = refine_on_surfaces(map, returns_, predicted, start,
+                                 {options_.hit_sigma_m, options_.independent_share});
   judge(map, &match);
   return match;
 }
 
 void ScanMatcher::prepare_search(const ScrollingMap& map, const Pose2& around) {
-  // Room for the search window, and for the next search of the same scan from somewhere nearby.
-  const double reach_m = farthest_m_ + 2.0 * options_.search_range_m;
   const Vector2d off_m = around.translation() - prepared_at_m_;
+  if (!is_prepared_) {
+    choose_few();
+  }
   if (!is_prepared_ || off_m.cwiseAbs().maxCoeff() > options_.search_range_m) {
-    search_.prepare(map.walls(), kSearchSigma_m, around.translation(), reach_m);
+    // Room for the window, and for the next search of the same scan from somewhere nearby.
+    search_.prepare(map.walls(), kSearchSigma_m, around.translation(),
+                    reach_m_ + 2.0 * options_.search_range_m);
     prepared_at_m_ = around.translation();
     is_prepared_ = true;
   }
 }
 
-ScanMatch ScanMatcher::searched(const ScrollingMap& map, const GaussianPose& predicted) {
+ScanMatch ScanMatcher::searched(const ScrollingMap& map,
+                                const GaussianPose& predicted,
+                                double most_turn_rad) {
   SearchWindow window;
   window.center = predicted.mean;
   window.sigma_m = std::sqrt(std::max(predicted.covariance(0, 0), predicted.covariance(1, 1)));
   window.sigma_rad = std::sqrt(predicted.covariance(2, 2));
   window.range_m = std::min(options_.search_range_m, kWindowInSigmas * window.sigma_m);
-  window.turn_rad = std::min(options_.search_turn_rad, kWindowInSigmas * window.sigma_rad);
+  window.turn_rad = std::min(most_turn_rad, kWindowInSigmas * window.sigma_rad);
   window.independent_share = options_.independent_share;
+  window.step_level = kSearchStepLevel;
   prepare_search(map, predicted.mean);
   ScanMatch match = refined(map, predicted, search_.find(few_returns_, window).pose);
   match.was_searched = true;
@@ -144,7 +197,7 @@ ScanMatch ScanMatcher::searched(const ScrollingMap& map, const GaussianPose& pre
 
 void ScanMatcher::judge(const ScrollingMap& map, ScanMatch* match) const {
   const GridGeometry& geometry = map.grid().geometry();
-  const double on_wall_m = std::max(kOnWallInSigmas * options_.hit_sigma_m, geometry.cell_m);
+  const double on_wall_m = std::max(kOnWall_m, geometry.cell_m);
   int known = 0;
   int on_wall = 0;
   for (const SurfacePoint& point : returns_) {

@@ -134,7 +134,7 @@ Refinement refine(const DistanceField& walls,
   Pose2 pose = start;
   descend(problem, kWideRound, &pose);
   const NormalEquations end = descend(problem, kNarrowRound, &pose);
-  return {pose, end.information, end.cost};
+  return {pose, end.information, options.hit_sigma_m, end.cost};
 }
 
 }  // namespace cairn

@@ -25,6 +25,9 @@ struct Refinement {
   /// Of the returns alone, of (x, y, theta) in the lpm frame: each tells where the robot is across
   /// its surface, and nothing along it. May be singular.
   Matrix3d information = Matrix3d::Zero();
+  /// Standard deviation of the returns about the surfaces, as far as it was measured; else that of
+  /// the options.
+  double spread_m = 0.0;
   double cost = 0.0;  ///< Half the sum of squares of returns (robust) and prior, in sigmas.
 };
 

@@ -29,8 +29,9 @@ double likelihood_by_hand(const DistanceField& walls,
 }
 
 TEST(CorrelativeSearch, FindsTheBestPoseOfItsWindow) {
-  for (unsigned seed = 0; seed < 20; ++seed) {
+  for (unsigned seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE(seed);
+    const int step = 1 << (seed % 3);  // of the raster, in cells
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> coordinate(0.3, 4.5);
     GridGeometry geometry;
@@ -50,6 +51,7 @@ TEST(CorrelativeSearch, FindsTheBestPoseOfItsWindow) {
     window.center = Pose2(2.5, 2.5, 0.3);
     window.range_m = 1.0;
     window.turn_rad = 0.2;
+    window.step_level = static_cast<int>(seed % 3);
     CorrelativeSearch search;
     search.prepare(walls, kSigma_m, window.center.translation(), 10.0);
     const SearchResult found = search.find(points, window);
@@ -59,12 +61,14 @@ TEST(CorrelativeSearch, FindsTheBestPoseOfItsWindow) {
     for (const SurfacePoint& point : points) {
       farthest_m = std::max(farthest_m, point.p.norm());
     }
-    const int angles = static_cast<int>(std::ceil(window.turn_rad * farthest_m / geometry.cell_m));
+    const int angles =
+        static_cast<int>(std::ceil(window.turn_rad * farthest_m / (step * geometry.cell_m)));
+    const int reach = step * static_cast<int>(std::ceil(10.0 / step));
     for (int a = -angles; a <= angles; ++a) {
       const Pose2 turned(window.center.translation(),
                          window.center.theta() + a * window.turn_rad / angles);
-      for (int y = -10; y <= 10; ++y) {
-        for (int x = -10; x <= 10; ++x) {
+      for (int y = -reach; y <= reach; y += step) {
+        for (int x = -reach; x <= reach; x += step) {
           best = std::max(best, likelihood_by_hand(walls, points, turned, {x, y}));
         }
       }

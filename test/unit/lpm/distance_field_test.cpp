@@ -69,6 +69,14 @@ TEST(DistanceField, GivesDistancesBetweenCellsAndTheirGradient) {
   EXPECT_FALSE(field.sample({-100.0, 3.0}).is_near);
 }
 
+TEST(DistanceField, NamesNoWallThatTheWindowHasLeftBehind) {
+  DistanceField field(square());
+  field.add_wall({3, 30});
+  field.shift({5, 0});
+  Cell wall;
+  EXPECT_FALSE(field.find_nearest({0, 30}, &wall));
+}
+
 TEST(DistanceField, ShiftsByWholeCells) {
   DistanceField field(square());
   field.add_wall({20, 30});

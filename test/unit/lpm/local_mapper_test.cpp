@@ -99,6 +99,13 @@ TEST(LocalMapper, MotionsCompoundToThePoses) {
   }
 }
 
+TEST(LocalMapper, HoldsLessThanEightMebibytes) {
+  LocalMapper mapper;
+  SimulatedLaser laser(furnished_room());
+  drive(&mapper, &laser, 200, on_a_circle);
+  EXPECT_LT(mapper.memory_bytes(), 8U * 1024U * 1024U);
+}
+
 TEST(LocalMapper, DoesNotDriftAtRest) {
   LocalMapper mapper;
   SimulatedLaser laser(furnished_room());

@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "geometry/angle.hpp"
 #include "sensing/laser_scan.hpp"
 
 namespace cairn::test {
@@ -60,21 +61,26 @@ inline double range_to(const std::vector<Wall>& walls, const Vector2d& from, dou
   return nearest_m;
 }
 
-/// A laser of 181 beams over 180 degrees with 1 cm of noise, in the middle of the robot.
+/// A laser with 1 cm of noise in the middle of the robot, of 181 beams over 180 degrees unless said
+/// otherwise.
 class SimulatedLaser {
  public:
   explicit SimulatedLaser(std::vector<Wall> walls, unsigned seed = 1)
       : walls_(std::move(walls)), random_(seed) {}
 
+  void set_beams(int beams, double span_rad) {
+    beams_ = beams;
+    span_rad_ = span_rad;
+  }
+
   LaserScan scan(const Pose2& T_world_robot, double seconds) {
-    constexpr int kBeams = 181;
     constexpr double kMaxRange_m = 20.0;
     std::normal_distribution<double> noise(0.0, 0.01);
     LaserScan scan;
     scan.time = time_of_utime(static_cast<std::int64_t>(std::llround(seconds * 1e6)));
     scan.max_range_m = kMaxRange_m;
-    for (int i = 0; i < kBeams; ++i) {
-      const double bearing_rad = kPi * (static_cast<double>(i) / (kBeams - 1) - 0.5);
+    for (int i = 0; i < beams_; ++i) {
+      const double bearing_rad = span_rad_ * (static_cast<double>(i) / (beams_ - 1) - 0.5);
       const double range_m =
           range_to(walls_, T_world_robot.translation(), T_world_robot.theta() + bearing_rad) +
           noise(random_);
@@ -88,6 +94,8 @@ class SimulatedLaser {
  private:
   std::vector<Wall> walls_;
   std::mt19937 random_;
+  int beams_ = 181;
+  double span_rad_ = kPi;
 };
 
 }  // namespace cairn::test

@@ -1,0 +1,184 @@
+#include "bench/lab/localmap_command.hpp"
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "bench/lab/localmap_picture.hpp"
+#include "bench/lab/localmap_relations.hpp"
+#include "bench/lab/localmap_run.hpp"
+#include "bench/lab/resources.hpp"
+#include "bench/lab/text.hpp"
+#include "clients/common/failure.hpp"
+#include "clients/common/text.hpp"
+
+namespace cairn::lab {
+namespace {
+
+using clients::ExitCode;
+using clients::Failure;
+using clients::fixed;
+using OrderedJson = nlohmann::ordered_json;
+
+DaemonOptions options_of(const std::string& config_file) {
+  if (config_file.empty()) {
+    return {};
+  }
+  const std::ifstream file(config_file);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) {
+    throw Failure(ExitCode::kBadData, config_file + ": cannot be read");
+  }
+  const Result<DaemonOptions> options = read_options(text.str());
+  if (!options) {
+    throw Failure(ExitCode::kBadData, config_file + ": " + options.error().message);
+  }
+  return *options;
+}
+
+std::array<std::pair<const char*, const StageTimes*>, 4> stages_of(const LocalmapRun& run) {
+  return {{{"matching", &run.matching},
+           {"insertion", &run.insertion},
+           {"other", &run.other},
+           {"all", &run.all}}};
+}
+
+OrderedJson json_of(const ErrorMoments& moments) {
+  return {{"mean", moments.mean}, {"deviation", moments.deviation}, {"max", moments.max}};
+}
+
+OrderedJson json_of(const RelationErrors& errors) {
+  return {{"relations", errors.relations},
+          {"translation_m", json_of(errors.translation_m)},
+          {"rotation_deg", json_of(errors.rotation_deg)},
+          {"drift_m_per_m", errors.drift_per_travel}};
+}
+
+OrderedJson json_of(const LocalmapRun& run, const std::optional<RelationReport>& report) {
+  OrderedJson json = {{"scans", run.track.size()},
+                      {"travel_m", run.travel_m()},
+                      {"refused", run.refused},
+                      {"restarts", run.restarts},
+                      {"degenerate", run.degenerate},
+                      {"notes", run.notes},
+                      {"scans_without_odometry", run.joiner.scans_without_odometry},
+                      {"map_bytes", run.map_bytes},
+                      {"peak_resident_bytes", peak_resident_bytes()},
+                      {"damage", run.damage}};
+  for (const auto& [name, times] : stages_of(run)) {
+    json["cpu_ms"][name] = {{"mean", times->mean_ms()},
+                            {"p50", times->quantile_ms(0.5)},
+                            {"p99", times->quantile_ms(0.99)},
+                            {"max", times->quantile_ms(1.0)}};
+  }
+  if (report) {
+    json["relations"] = {{"missing", report->missing},
+                         {"near_m", report->near_m},
+                         {"all", json_of(report->all)},
+                         {"near", json_of(report->near)}};
+  }
+  return json;
+}
+
+void print(const RelationErrors& errors, const std::string& which, std::ostream& out) {
+  const auto line = [&out](const char* name, const ErrorMoments& moments, const char* unit) {
+    out << "  " << name << ' ' << fixed(moments.mean, 4) << " +- " << fixed(moments.deviation, 4)
+        << " max " << fixed(moments.max, 4) << ' ' << unit << '\n';
+  };
+  out << "relations " << which << ": " << grouped(errors.relations) << '\n';
+  line("translation", errors.translation_m, "m");
+  line("rotation", errors.rotation_deg, "deg");
+  out << "  drift " << fixed(1e3 * errors.drift_per_travel, 2) << " mm per metre travelled\n";
+}
+
+void print(const LocalmapRun& run, const std::optional<RelationReport>& report, std::ostream& out) {
+  out << grouped(static_cast<std::int64_t>(run.track.size())) << " scans, "
+      << fixed(run.travel_m(), 1) << " m; refused " << run.refused << ", restarts " << run.restarts
+      << ", degenerate " << run.degenerate << "; local map "
+      << clients::byte_size(static_cast<std::int64_t>(run.map_bytes)) << '\n';
+  for (const auto& [note, count] : run.notes) {
+    out << "  " << note << ": " << grouped(count) << '\n';
+  }
+  clients::Table table({"CPU ms per scan", "mean", "median", "99 %", "most"});
+  for (const auto& [name, times] : stages_of(run)) {
+    table.add({name, fixed(times->mean_ms(), 4), fixed(times->quantile_ms(0.5), 4),
+               fixed(times->quantile_ms(0.99), 4), fixed(times->quantile_ms(1.0), 4)});
+  }
+  table.print(out);
+  if (report) {
+    print(report->all, "(" + grouped(report->missing) + " missing)", out);
+    print(report->near, "within " + fixed(report->near_m, 0) + " m of travel", out);
+  }
+}
+
+std::string trajectory_of(const LocalmapRun& run) {
+  std::string text = "# t x y theta\n";
+  for (const TrackedPose& scan : run.poses) {
+    std::array<char, 128> line{};
+    const Pose2& pose = scan.T_lpm_robot;
+    const int length = std::snprintf(line.data(), line.size(), "%.6f %.9f %.9f %.9f\n", scan.time_s,
+                                     pose.x(), pose.y(), pose.theta());
+    text.append(line.data(), static_cast<std::size_t>(length));
+  }
+  return text;
+}
+
+int track(const LocalmapRequest& request, const Streams& streams) {
+  const DaemonOptions options = options_of(request.config_file);
+  std::vector<Relation> relations;
+  if (!request.relations_file.empty()) {
+    relations = read_relations(request.relations_file);
+  }
+  const LocalmapRun run = run_localmap(request.log, options);
+  std::optional<RelationReport> report;
+  if (!request.relations_file.empty()) {
+    report = judge(relations, run.poses);
+  }
+  if (request.as_json) {
+    streams.out << json_of(run, report).dump(2) << '\n';
+  } else {
+    print(run, report, streams.out);
+  }
+  if (!request.trajectory_file.empty()) {
+    clients::write_file(request.trajectory_file, trajectory_of(run));
+  }
+  if (!request.png_file.empty()) {
+    draw_localmap(run, request.png_file);
+  }
+  if (!run.damage.empty()) {
+    throw Failure(ExitCode::kBadData, request.log + ": " + run.damage);
+  }
+  if (report && report->all.relations == 0) {
+    throw Failure(ExitCode::kBadData,
+                  request.relations_file + ": no relation has both ends in the log");
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_localmap_command(CLI::App& app, const Streams& streams, int* status) {
+  CLI::App* command = app.add_subcommand(
+      "localmap", "Track a recorded log by the local layer alone: how fast, how true");
+  auto request = std::make_shared<LocalmapRequest>();
+  const auto file = [&](const char* name, std::string* path, const char* help) {
+    return command->add_option(name, *path, help)->type_name("FILE");
+  };
+  file("LOG", &request->log, "CARMEN log, or LCM event log")->required();
+  file("--config", &request->config_file, "The daemon's configuration");
+  file("--relations", &request->relations_file, "True relations of poses: report the error");
+  file("--png", &request->png_file, "Draw what was seen, and the way");
+  file("--trajectory", &request->trajectory_file, "The poses, as lines t x y theta");
+  command->add_flag("--json", request->as_json, "Print JSON");
+  command->callback([request, streams, status] { *status = track(*request, streams); });
+}
+
+}  // namespace cairn::lab

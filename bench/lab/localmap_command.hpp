@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "bench/lab/topology_command.hpp"
+
+namespace cairn::lab {
+
+/// What `cairn-lab localmap` was asked for.
+struct LocalmapRequest {
+  std::string log;
+  std::string config_file;
+  std::string relations_file;
+  std::string png_file;
+  std::string trajectory_file;
+  bool as_json = false;
+};
+
+/// Adds `localmap` to the program. The exit status of a run that has come to its end is left in
+/// *status.
+void add_localmap_command(CLI::App& app, const Streams& streams, int* status);
+
+}  // namespace cairn::lab

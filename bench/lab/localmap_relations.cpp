@@ -1,0 +1,143 @@
+#include "bench/lab/localmap_relations.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <tuple>
+
+#include "clients/common/failure.hpp"
+
+namespace cairn::lab {
+namespace {
+
+using clients::ExitCode;
+using clients::Failure;
+
+constexpr double kTolerance_s = 0.03;
+
+struct RelationError {
+  double translation_m = 0.0;
+  double rotation_deg = 0.0;
+  double travel_m = 0.0;
+};
+
+/// The scan nearest in time, the earlier one of two that are as near.
+const TrackedPose* scan_at(const std::vector<TrackedPose>& track, double time_s) {
+  const auto later =
+      std::upper_bound(track.begin(), track.end(), time_s,
+                       [](double time, const TrackedPose& pose) { return time < pose.time_s; });
+  const TrackedPose* nearest = nullptr;
+  if (later != track.begin()) {
+    nearest = &*std::prev(later);
+  }
+  if (later != track.end() && (nearest == nullptr || std::abs(later->time_s - time_s) <
+                                                         std::abs(nearest->time_s - time_s))) {
+    nearest = &*later;
+  }
+  return nearest != nullptr && std::abs(nearest->time_s - time_s) <= kTolerance_s ? nearest
+                                                                                  : nullptr;
+}
+
+ErrorMoments moments_of(const std::vector<double>& values) {
+  ErrorMoments moments;
+  for (const double value : values) {
+    moments.mean += value / static_cast<double>(values.size());
+    moments.max = std::max(moments.max, value);
+  }
+  double squares = 0.0;
+  for (const double value : values) {
+    squares += (value - moments.mean) * (value - moments.mean);
+  }
+  moments.deviation =
+      values.empty() ? 0.0 : std::sqrt(squares / static_cast<double>(values.size()));
+  return moments;
+}
+
+RelationErrors summed_up(const std::vector<RelationError>& errors, double most_travel_m) {
+  std::vector<double> translations_m;
+  std::vector<double> rotations_deg;
+  double error_m = 0.0;
+  double travel_m = 0.0;
+  for (const RelationError& error : errors) {
+    if (error.travel_m <= most_travel_m) {
+      translations_m.push_back(error.translation_m);
+      rotations_deg.push_back(error.rotation_deg);
+      error_m += error.translation_m;
+      travel_m += error.travel_m;
+    }
+  }
+  return {static_cast<std::int64_t>(translations_m.size()), moments_of(translations_m),
+          moments_of(rotations_deg), travel_m > 0.0 ? error_m / travel_m : 0.0};
+}
+
+std::optional<Relation> relation_of(const std::string& line) {
+  std::istringstream words(line);
+  double z = 0.0;
+  double roll = 0.0;
+  double pitch = 0.0;
+  double x = 0.0;
+  double y = 0.0;
+  double yaw = 0.0;
+  Relation relation;
+  words >> relation.from_s >> relation.to_s >> x >> y >> z >> roll >> pitch >> yaw;
+  const bool is_finite = std::isfinite(x) && std::isfinite(y) && std::isfinite(yaw);
+  if (!words || !is_finite) {
+    return std::nullopt;
+  }
+  relation.T_from_to = Pose2(x, y, yaw);
+  return relation;
+}
+
+}  // namespace
+
+std::vector<Relation> read_relations(const std::filesystem::path& file) {
+  std::ifstream lines(file);
+  if (!lines) {
+    throw Failure(ExitCode::kBadData, file.string() + ": cannot be read");
+  }
+  std::vector<Relation> relations;
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    line = line.substr(0, line.find('#'));
+    if (line.find_first_not_of(" \t\r") == std::string::npos) {
+      continue;
+    }
+    const std::optional<Relation> relation = relation_of(line);
+    if (!relation) {
+      throw Failure(ExitCode::kBadData, file.string() + ": line " + std::to_string(number) +
+                                            ": expected t1 t2 x y z roll pitch yaw");
+    }
+    relations.push_back(*relation);
+  }
+  return relations;
+}
+
+RelationReport judge(const std::vector<Relation>& relations, std::vector<TrackedPose> track) {
+  // Stamps may repeat; then it must not depend on the order of the log which one is taken.
+  std::sort(track.begin(), track.end(), [](const TrackedPose& a, const TrackedPose& b) {
+    return std::tuple(a.time_s, a.T_lpm_robot.x(), a.T_lpm_robot.y(), a.T_lpm_robot.theta()) <
+           std::tuple(b.time_s, b.T_lpm_robot.x(), b.T_lpm_robot.y(), b.T_lpm_robot.theta());
+  });
+  RelationReport report;
+  std::vector<RelationError> errors;
+  for (const Relation& relation : relations) {
+    const TrackedPose* const from = scan_at(track, relation.from_s);
+    const TrackedPose* const to = scan_at(track, relation.to_s);
+    if (from == nullptr || to == nullptr) {
+      ++report.missing;
+      continue;
+    }
+    const Pose2 found = from->T_lpm_robot.inverse() * to->T_lpm_robot;
+    const Pose2 off = relation.T_from_to.inverse() * found;
+    errors.push_back({off.translation().norm(), std::abs(off.theta()) * 180.0 / kPi,
+                      std::abs(to->travel_m - from->travel_m)});
+  }
+  report.all = summed_up(errors, 1e300);
+  report.near = summed_up(errors, report.near_m);
+  return report;
+}
+
+}  // namespace cairn::lab

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "bench/lab/localmap_run.hpp"
+
+namespace cairn::lab {
+
+/// The true pose at one time in the frame of the pose at another.
+struct Relation {
+  double from_s = 0.0;
+  double to_s = 0.0;
+  Pose2 T_from_to;
+};
+
+/// Lines `t1 t2 x y z roll pitch yaw`; `#` starts a comment. Throws clients::Failure(kBadData) with
+/// the line that is not so.
+[[nodiscard]] std::vector<Relation> read_relations(const std::filesystem::path& file);
+
+struct ErrorMoments {
+  double mean = 0.0;
+  double deviation = 0.0;
+  double max = 0.0;
+};
+
+struct RelationErrors {
+  std::int64_t relations = 0;
+  ErrorMoments translation_m;
+  ErrorMoments rotation_deg;
+  double drift_per_travel = 0.0;  ///< Sum of translational errors by sum of travel between.
+};
+
+/// Over all relations, and over those whose ends lie within `near_m` of travel.
+struct RelationReport {
+  std::int64_t missing = 0;  ///< An end has no pose within 30 ms.
+  double near_m = 20.0;
+  RelationErrors all;
+  RelationErrors near;
+};
+
+/// Source: Kuemmerle et al., "On measuring the accuracy of SLAM algorithms", Autonomous Robots
+/// 2009.
+[[nodiscard]] RelationReport judge(const std::vector<Relation>& relations,
+                                   std::vector<TrackedPose> track);
+
+}  // namespace cairn::lab

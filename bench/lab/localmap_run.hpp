@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "geometry/pose2.hpp"
+#include "runtime/daemon_options.hpp"
+#include "sensing/scan_joiner.hpp"
+
+namespace cairn::lab {
+
+/// Where the local layer has the robot at one time.
+struct TrackedPose {
+  double time_s = 0.0;
+  Pose2 T_lpm_robot;
+  double travel_m = 0.0;  ///< Along the trajectory, from scan to scan, since the first.
+};
+
+/// CPU time per scan of one stage.
+struct StageTimes {
+  std::vector<double> times_ms;
+
+  [[nodiscard]] double mean_ms() const;
+  /// @param share 0.5: the median; 1: the longest. 0 without scans.
+  [[nodiscard]] double quantile_ms(double share) const;
+};
+
+/// What came of the local layer alone on a log.
+struct LocalmapRun {
+  std::vector<TrackedPose> track;  ///< At every scan, in the order of the log.
+  /// The same, and between two scans at every sample of odometry: its way bent to end at the fix.
+  std::vector<TrackedPose> poses;
+  std::vector<Vector2d> walls_lpm;            ///< Some of the returns, where the map took them up.
+  std::map<std::string, std::int64_t> notes;  ///< How the fixes came about.
+  std::int64_t refused = 0;
+  std::int64_t restarts = 0;
+  std::int64_t degenerate = 0;
+  std::size_t map_bytes = 0;
+  StageTimes matching;
+  StageTimes insertion;
+  StageTimes other;  ///< Reading messages, joining scans and odometry.
+  StageTimes all;
+  JoinerCounters joiner;
+  std::string damage;  ///< What is wrong with the log; empty where all is well.
+
+  [[nodiscard]] double travel_m() const { return track.empty() ? 0.0 : track.back().travel_m; }
+};
+
+/// Runs joiner and local mapper over a log, nothing else. Throws clients::Failure(kBadData) where
+/// there is no log, or no scan in it.
+[[nodiscard]] LocalmapRun run_localmap(const std::string& log, const DaemonOptions& options);
+
+}  // namespace cairn::lab

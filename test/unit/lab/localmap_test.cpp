@@ -1,0 +1,95 @@
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/lab/program.hpp"
+#include "support/files.hpp"
+
+namespace cairn::lab {
+namespace {
+
+using Json = nlohmann::json;
+using test::TemporaryFolder;
+using test::write_file;
+using testing::HasSubstr;
+
+struct Ran {
+  int status = -1;
+  std::string output;
+  std::string errors;
+};
+
+Ran run(const std::vector<std::string>& arguments) {
+  std::ostringstream out;
+  std::ostringstream err;
+  const int status = run_lab(arguments, out, err);
+  return {status, out.str(), err.str()};
+}
+
+/// A robot that goes 2 m towards a wall, within four walls, one scan a second.
+std::string carmen_log() {
+  std::ostringstream log;
+  for (int i = 0; i <= 10; ++i) {
+    const double x_m = 0.2 * i;
+    log << "FLASER 180";
+    for (int beam = 0; beam < 180; ++beam) {
+      const double bearing_rad = (beam - 90) * M_PI / 180.0;
+      const double ahead_m = (6.0 - x_m) / std::max(std::cos(bearing_rad), 1e-9);
+      const double aside_m = (bearing_rad > 0.0 ? 3.0 : 4.0) / std::abs(std::sin(bearing_rad));
+      log << ' ' << std::min({ahead_m, aside_m, 50.0});
+    }
+    const std::string pose = " " + std::to_string(x_m) + " 0 0";
+    log << pose << pose << ' ' << 100 + i << " robot " << i << '\n';
+  }
+  return log.str();
+}
+
+TEST(LabLocalmap, TracksALogAndJudgesItByRelations) {
+  const TemporaryFolder folder;
+  const std::string log = (folder / "a.clf").string();
+  const std::string relations = (folder / "a.relations").string();
+  const std::string trajectory = (folder / "a.txt").string();
+  const std::string png = (folder / "a.png").string();
+  write_file(log, carmen_log());
+  write_file(relations,
+             "# true\n100 110 2 0 0 0 0 0\n102 106 0.8 0 0 0 0 0\n500 501 0 0 0 0 0 0\n");
+  const Ran ran = run({"localmap", log, "--relations", relations, "--json", "--trajectory",
+                       trajectory, "--png", png});
+  ASSERT_EQ(ran.status, 0) << ran.errors;
+  const Json json = Json::parse(ran.output);
+  EXPECT_EQ(json["scans"], 11);
+  EXPECT_EQ(json["refused"], 0);
+  EXPECT_NEAR(json["travel_m"].get<double>(), 2.0, 0.1);
+  EXPECT_EQ(json["relations"]["missing"], 1);
+  EXPECT_EQ(json["relations"]["all"]["relations"], 2);
+  EXPECT_LT(json["relations"]["near"]["translation_m"]["max"].get<double>(), 0.05);
+  EXPECT_THAT(test::content_of(trajectory), HasSubstr("\n110.000000 "));
+  EXPECT_THAT(test::content_of(png), HasSubstr("PNG"));
+}
+
+TEST(LabLocalmap, RefusesWhatIsNotThere) {
+  const TemporaryFolder folder;
+  const std::string log = (folder / "a.clf").string();
+  EXPECT_EQ(run({"localmap", log}).status, 65);
+  EXPECT_EQ(run({"localmap"}).status, 64);
+  EXPECT_EQ(run({"localmap", log, "--fast"}).status, 64);
+  write_file(log, "# nothing\n");
+  EXPECT_EQ(run({"localmap", log}).status, 65);
+  write_file(log, carmen_log());
+  const std::string relations = (folder / "a.relations").string();
+  EXPECT_EQ(run({"localmap", log, "--relations", relations}).status, 65);
+  write_file(relations, "100 110 2 zero\n");
+  const Ran ran = run({"localmap", log, "--relations", relations});
+  EXPECT_EQ(ran.status, 65);
+  EXPECT_THAT(ran.errors, HasSubstr("line 1"));
+  const std::string config = (folder / "a.json").string();
+  write_file(config, R"({"lpm": {"insert_every": 1}})");
+  EXPECT_EQ(run({"localmap", log, "--config", config}).status, 65);
+}
+
+}  // namespace
+}  // namespace cairn::lab
