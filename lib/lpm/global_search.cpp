@@ -64,9 +64,9 @@ void GlobalSearch::take(const OccupancyGrid& map) {
     likelihood_at[squared] =
         static_cast<std::uint8_t>(std::lround(kFullScore * std::exp(exponent)));
   }
-  std::vector<std::uint8_t> likelihood;
-  for (const std::uint8_t squared : walls_.squared()) {
-    likelihood.push_back(likelihood_at[squared]);
+  std::vector<std::uint8_t> likelihood(geometry.cell_count());
+  for (int y = 0; y < geometry.height; ++y) {
+    walls_.look_up({0, y}, geometry.width, likelihood_at, &likelihood[geometry.index_of({0, y})]);
   }
   std::vector<std::uint8_t> freeness(geometry.cell_count(), 0);
   std::vector<std::uint8_t> allowed(geometry.cell_count(), 0);
