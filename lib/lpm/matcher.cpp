@@ -24,8 +24,12 @@ Matcher::Matcher(MatcherKind kind,
   }
 }
 
-void Matcher::take(const LaserScan& scan) {
-  std::visit([&scan](auto& matcher) { matcher.take(scan); }, matcher_);
+void Matcher::take(const ScanBeams& beams) {
+  std::visit([&beams](auto& matcher) { matcher.take(beams); }, matcher_);
+}
+
+std::size_t Matcher::memory_bytes() const {
+  return std::visit([](const auto& matcher) { return matcher.memory_bytes(); }, matcher_);
 }
 
 bool Matcher::is_blocked() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -29,8 +30,9 @@ class Matcher {
   Matcher(MatcherKind kind, const ScanMatchOptions& options, const ParticleOptions& particles);
 
   /// Takes the returns of a scan. The map must not change until all its matches are done.
-  void take(const LaserScan& scan);
+  void take(const ScanBeams& beams);
   [[nodiscard]] bool is_blocked() const;
+  [[nodiscard]] std::size_t memory_bytes() const;
   /// @pre the covariance of the prediction is positive definite
   [[nodiscard]] ScanMatch match(const ScrollingMap& map, const GaussianPose& T_lpm_robot_predicted);
 

@@ -75,13 +75,13 @@ ParticleMatcher::ParticleMatcher(const ScanMatchOptions& options, const Particle
   CAIRN_CHECK(validate(particles).ok());
 }
 
-void ParticleMatcher::take(const LaserScan& scan) {
+void ParticleMatcher::take(const ScanBeams& beams) {
   ++scans_;
   matches_ = 0;
   best_score_ = -1.0;
   left_open_ = std::move(next_left_open_);
   next_left_open_.clear();
-  returns_ = surface_points_of(scan, options_.point_spacing_m, options_.max_match_range_m);
+  surface_points_of(beams, options_.point_spacing_m, options_.max_match_range_m, &returns_);
   few_returns_ = some_of(returns_, static_cast<std::size_t>(particles_.max_returns));
   weight_ = few_returns_.empty()
                 ? 0.0
@@ -108,11 +108,17 @@ ScanMatch ParticleMatcher::match(const ScrollingMap& map, const GaussianPose& pr
     }
     match.was_searched = true;
   }
+  match.usual_score = usual_score_.value();
   if (match.score > best_score_) {
     best_score_ = match.score;
     next_left_open_ = std::move(left_open);
   }
+  usual_score_.learn(match.score);
   return match;
+}
+
+std::size_t ParticleMatcher::memory_bytes() const {
+  return (left_open_.capacity() + next_left_open_.capacity()) * sizeof(Vector3d);
 }
 
 ScanMatch ParticleMatcher::filtered(const ScrollingMap& map,
@@ -132,6 +138,7 @@ ScanMatch ParticleMatcher::filtered(const ScrollingMap& map,
   ScanMatch match;
   match.fit.T_lpm_robot = moved(predicted.mean, posterior.mean);
   match.fit.information = information_gained(prior.covariance, posterior.covariance);
+  match.fit.spread_m = options_.hit_sigma_m;
   match.fit.cost = 0.5 * posterior.mean.dot(prior.covariance.inverse() * posterior.mean) -
                    log_likelihood(map.walls(), match.fit.T_lpm_robot);
   judge(map, returns_, kOnWallInSigmas * options_.hit_sigma_m, &match);

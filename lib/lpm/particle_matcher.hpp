@@ -7,10 +7,10 @@
 #include "base/result.hpp"
 #include "geometry/gaussian_pose.hpp"
 #include "lpm/lpm_options.hpp"
+#include "lpm/scan_beams.hpp"
 #include "lpm/scan_matcher.hpp"
 #include "lpm/scrolling_map.hpp"
 #include "lpm/split_random.hpp"
-#include "sensing/laser_scan.hpp"
 
 namespace cairn {
 
@@ -46,10 +46,12 @@ class ParticleMatcher {
   /// @pre both options are within their ranges
   explicit ParticleMatcher(const ScanMatchOptions& options, const ParticleOptions& particles = {});
 
-  /// Takes the returns of a scan, in the robot frame, thinned to the point spacing. The map must
-  /// not change until all matches of this scan are done.
-  void take(const LaserScan& scan);
+  /// Takes the returns of a scan, thinned to the point spacing. The map must not change until all
+  /// matches of this scan are done.
+  void take(const ScanBeams& beams);
   [[nodiscard]] bool is_blocked() const;
+  /// What the particles left from the last match hold.
+  [[nodiscard]] std::size_t memory_bytes() const;
 
   /// The mean of the particles, and the information that they owe to the returns.
   /// @pre the covariance of the prediction is positive definite
@@ -95,6 +97,7 @@ class ParticleMatcher {
   double best_score_ = -1.0;              // of the matches of this scan
   std::vector<Vector3d> left_open_;       // deviations from the pose told for the scan before
   std::vector<Vector3d> next_left_open_;  // of the best match of this scan
+  UsualScore usual_score_;
   int first_count_ = 0;
 };
 

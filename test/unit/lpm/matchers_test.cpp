@@ -16,6 +16,12 @@ using test::endless_corridor;
 using test::furnished_room;
 using test::SimulatedLaser;
 
+ScanBeams beams_of(const LaserScan& scan) {
+  ScanBeams beams;
+  beams.take(scan, {}, 20.0);
+  return beams;
+}
+
 /// What every way to match scans must fulfil.
 template <typename Matcher>
 class AnyMatcher : public testing::Test {
@@ -57,7 +63,7 @@ TYPED_TEST(AnyMatcher, FindsTheRobotNearItsPrediction) {
     SCOPED_TRACE(seed);
     SimulatedLaser laser(furnished_room(), seed);
     const Pose2 truth(0.5 + 0.1 * std::sin(seed), -0.5 + 0.1 * std::cos(seed), 0.3 * seed);
-    this->matcher_.take(laser.scan(truth, 10.0 + seed));
+    this->matcher_.take(beams_of(laser.scan(truth, 10.0 + seed)));
     ASSERT_FALSE(this->matcher_.is_blocked());
     const Pose2 guess(truth.x() + 0.1, truth.y() - 0.08, truth.theta() + 0.06);
     const ScanMatch match = this->matcher_.match(map, this->unsure_about(guess, 0.15, 0.08));
@@ -72,7 +78,7 @@ TYPED_TEST(AnyMatcher, FindsTheRobotAfterASlip) {
   const ScrollingMap map = this->map_of_room();
   SimulatedLaser laser(furnished_room(), 5);
   const Pose2 truth(0.1, 0.1, 0.2);
-  this->matcher_.take(laser.scan(truth, 10.0));
+  this->matcher_.take(beams_of(laser.scan(truth, 10.0)));
   const ScanMatch match =
       this->matcher_.match(map, this->unsure_about(Pose2(0.45, -0.2, 0.35), 0.1, 0.06));
   EXPECT_LT(this->miss_m(match, truth), 0.05);
@@ -82,7 +88,7 @@ TYPED_TEST(AnyMatcher, FindsTheRobotAfterASlip) {
 TYPED_TEST(AnyMatcher, KnowsHowWellItKnowsInARoom) {
   const ScrollingMap map = this->map_of_room();
   SimulatedLaser laser(furnished_room(), 6);
-  this->matcher_.take(laser.scan(Pose2(), 10.0));
+  this->matcher_.take(beams_of(laser.scan(Pose2(), 10.0)));
   const ScanMatch match = this->matcher_.match(map, this->unsure_about(Pose2(), 0.1, 0.06));
   const Matrix3d covariance = match.fit.information.inverse();
   EXPECT_LT(covariance(0, 0), 0.03 * 0.03);
@@ -93,7 +99,7 @@ TYPED_TEST(AnyMatcher, KnowsHowWellItKnowsInARoom) {
 TYPED_TEST(AnyMatcher, KnowsNothingAlongACorridorAndLeavesThePredictionThere) {
   const ScrollingMap map = this->map_of(endless_corridor(), -12.0, 12.0);
   SimulatedLaser laser(endless_corridor(), 7);
-  this->matcher_.take(laser.scan(Pose2(0.0, 0.1, 0.0), 10.0));
+  this->matcher_.take(beams_of(laser.scan(Pose2(0.0, 0.1, 0.0), 10.0)));
   const ScanMatch match =
       this->matcher_.match(map, this->unsure_about(Pose2(0.2, 0.0, 0.05), 0.15, 0.08));
   EXPECT_NEAR(match.fit.T_lpm_robot.x(), 0.2, 0.05);
@@ -107,7 +113,7 @@ TYPED_TEST(AnyMatcher, ScoresAScanOfAnotherRoomPoorly) {
   std::vector<test::Wall> other;
   test::add_box({-2.5, -1.5}, {1.7, 2.9}, &other);
   SimulatedLaser laser(other, 8);
-  this->matcher_.take(laser.scan(Pose2(), 10.0));
+  this->matcher_.take(beams_of(laser.scan(Pose2(), 10.0)));
   const ScanMatch match = this->matcher_.match(map, this->unsure_about(Pose2(), 0.1, 0.06));
   EXPECT_LT(match.score, 0.6);
 }
@@ -119,7 +125,7 @@ TYPED_TEST(AnyMatcher, HoldsAgainstPeopleInTheWay) {
   test::add_box({1.0, 0.7}, {1.3, 1.0}, &crowded);
   SimulatedLaser laser(crowded, 9);
   const Pose2 truth(0.1, -0.05, 0.1);
-  this->matcher_.take(laser.scan(truth, 10.0));
+  this->matcher_.take(beams_of(laser.scan(truth, 10.0)));
   const ScanMatch match =
       this->matcher_.match(map, this->unsure_about(Pose2(0.2, 0.0, 0.05), 0.15, 0.08));
   EXPECT_LT(this->miss_m(match, truth), 0.05);
@@ -128,7 +134,7 @@ TYPED_TEST(AnyMatcher, HoldsAgainstPeopleInTheWay) {
 
 TYPED_TEST(AnyMatcher, IsBlockedWithoutReturns) {
   LaserScan scan = SimulatedLaser({}, 1).scan(Pose2(), 1.0);
-  this->matcher_.take(scan);
+  this->matcher_.take(beams_of(scan));
   EXPECT_TRUE(this->matcher_.is_blocked());
 }
 
@@ -137,8 +143,8 @@ TYPED_TEST(AnyMatcher, GivesTheSameForTheSameScans) {
   TypeParam other{ScanMatchOptions{}};
   for (int i = 0; i < 5; ++i) {
     const LaserScan scan = SimulatedLaser(furnished_room(), 4).scan(Pose2(0.05 * i, 0.0, 0.0), i);
-    this->matcher_.take(scan);
-    other.take(scan);
+    this->matcher_.take(beams_of(scan));
+    other.take(beams_of(scan));
     const GaussianPose predicted = this->unsure_about(Pose2(0.05 * i, 0.02, 0.03), 0.1, 0.05);
     const ScanMatch a = this->matcher_.match(map, predicted);
     const ScanMatch b = other.match(map, predicted);
@@ -151,7 +157,7 @@ class ParticleMatcherTest : public AnyMatcher<ParticleMatcher> {};
 
 TEST_F(ParticleMatcherTest, DrawsAsManyParticlesAsTheUncertaintyTakes) {
   const ScrollingMap map = map_of_room();
-  matcher_.take(SimulatedLaser(furnished_room(), 4).scan(Pose2(), 1.0));
+  matcher_.take(beams_of(SimulatedLaser(furnished_room(), 4).scan(Pose2(), 1.0)));
   (void)matcher_.match(map, unsure_about(Pose2(), 0.01, 0.005));
   const int sure = matcher_.particle_count();
   (void)matcher_.match(map, unsure_about(Pose2(), 0.2, 0.1));
@@ -169,7 +175,7 @@ TEST_F(ParticleMatcherTest, HasNoBiasOverSeeds) {
     ParticleOptions options;
     options.seed = static_cast<std::uint64_t>(seed);
     ParticleMatcher matcher(ScanMatchOptions{}, options);
-    matcher.take(scan);
+    matcher.take(beams_of(scan));
     const Pose2 found = matcher.match(map, unsure_about(Pose2(), 0.1, 0.06)).fit.T_lpm_robot;
     const Eigen::Vector3d miss(found.x() - truth.x(), found.y() - truth.y(),
                                found.theta() - truth.theta());
@@ -195,10 +201,10 @@ TEST(Matcher, IsTheOneThatWasChosen) {
   ParticleMatcher particles{ScanMatchOptions{}};
   Matcher chosen(MatcherKind::kCorrelative, {}, {});
   Matcher other(MatcherKind::kParticles, {}, {});
-  correlative.take(scan);
-  particles.take(scan);
-  chosen.take(scan);
-  other.take(scan);
+  correlative.take(beams_of(scan));
+  particles.take(beams_of(scan));
+  chosen.take(beams_of(scan));
+  other.take(beams_of(scan));
   EXPECT_FALSE(chosen.is_blocked());
   EXPECT_EQ(chosen.match(map, predicted).fit.T_lpm_robot,
             correlative.match(map, predicted).fit.T_lpm_robot);
