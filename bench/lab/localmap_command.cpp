@@ -132,7 +132,14 @@ std::string trajectory_of(const LocalmapRun& run) {
 }
 
 int track(const LocalmapRequest& request, const Streams& streams) {
-  const DaemonOptions options = options_of(request.config_file);
+  DaemonOptions options = options_of(request.config_file);
+  if (!request.matcher.empty()) {
+    const std::optional<MatcherKind> kind = matcher_kind_of(request.matcher);
+    if (!kind) {
+      throw Failure(ExitCode::kUsage, "--matcher: either correlative or particles");
+    }
+    options.service.lpm.matcher = *kind;
+  }
   std::vector<Relation> relations;
   if (!request.relations_file.empty()) {
     relations = read_relations(request.relations_file);
@@ -174,6 +181,7 @@ void add_localmap_command(CLI::App& app, const Streams& streams, int* status) {
   };
   file("LOG", &request->log, "CARMEN log, or LCM event log")->required();
   file("--config", &request->config_file, "The daemon's configuration");
+  command->add_option("--matcher", request->matcher, "correlative or particles")->type_name("NAME");
   file("--relations", &request->relations_file, "True relations of poses: report the error");
   file("--png", &request->png_file, "Draw what was seen, and the way");
   file("--trajectory", &request->trajectory_file, "The poses, as lines t x y theta");

@@ -68,11 +68,33 @@ OptionObject describe(ScanMatchOptions* match) {
   return object;
 }
 
+OptionObject describe(ParticleOptions* particles) {
+  OptionObject object("particles", "The particle filter, where `matcher` is \"particles\".");
+  object
+      .integer("least_count", &particles->least_count, {20, 100000}, "As many particles at least,")
+      .integer("greatest_count", &particles->greatest_count, {20, 100000}, "and at most.")
+      .number("bin_m", &particles->bin_m, {0.001, 10}, "Particles closer than this count as alike")
+      .number("bin_rad", &particles->bin_rad, {0.001, 3.2}, "and this.")
+      .number("kld_error", &particles->kld_error, {0.001, 1}, "Of the sampled belief.")
+      .number("kld_quantile", &particles->kld_quantile, {0, 5},
+              "Of the normal distribution: 2.33 for 99 %.")
+      .number("effective_share", &particles->effective_share, {0.01, 0.99},
+              "Of particles that a tempering step must leave.")
+      .integer("max_returns", &particles->max_returns, {10, 10000}, "Returns weighed per particle.")
+      .integer("seed", &particles->seed, {0, 1e15}, "Same seed, same scans: same poses.");
+  return object;
+}
+
 OptionObject describe(LpmOptions* lpm) {
   OptionObject object("lpm", "The local metrical layer (local perceptual map).");
   object.object(describe(&lpm->map))
       .object(describe(&lpm->motion))
       .object(describe(&lpm->match))
+      .choice(
+          "matcher", [lpm] { return static_cast<int>(lpm->matcher); },
+          [lpm](int value) { lpm->matcher = static_cast<MatcherKind>(value); },
+          {"correlative", "particles"}, "How scans are matched with the local map.")
+      .object(describe(&lpm->particles))
       .number("insert_every_m", &lpm->insert_every_m, {0, 5},
               "The map takes a scan after this travel,")
       .number("insert_every_rad", &lpm->insert_every_rad, {0, 3.2}, "or after this turn.")

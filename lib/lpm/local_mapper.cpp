@@ -90,7 +90,9 @@ const char* to_string(FixNote note) {
 }
 
 LocalMapper::LocalMapper(const LpmOptions& options)
-    : options_(options), map_(options.map), matcher_(options.match) {
+    : options_(options),
+      map_(options.map),
+      matcher_(options.matcher, options.match, options.particles) {
   CAIRN_CHECK(validate(options).ok());
 }
 

@@ -6,8 +6,8 @@
 #include "geometry/gaussian_pose.hpp"
 #include "grid/occupancy_grid.hpp"
 #include "lpm/lpm_options.hpp"
+#include "lpm/matcher.hpp"
 #include "lpm/scan_beams.hpp"
-#include "lpm/scan_matcher.hpp"
 #include "lpm/scrolling_map.hpp"
 #include "sensing/scan_joiner.hpp"
 
@@ -95,7 +95,7 @@ class LocalMapper {
   LpmOptions options_;
   ScanBeams beams_;  // of the scan taken last
   ScrollingMap map_;
-  ScanMatcher matcher_;
+  Matcher matcher_;
   bool is_started_ = false;
   TimePoint time_;
   Pose2 T_lpm_robot_;

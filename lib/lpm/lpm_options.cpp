@@ -6,7 +6,36 @@
 
 namespace cairn {
 
+std::string_view to_string(MatcherKind kind) {
+  return kind == MatcherKind::kParticles ? "particles" : "correlative";
+}
+
+std::optional<MatcherKind> matcher_kind_of(std::string_view name) {
+  for (const MatcherKind kind : {MatcherKind::kCorrelative, MatcherKind::kParticles}) {
+    if (name == to_string(kind)) {
+      return kind;
+    }
+  }
+  return std::nullopt;
+}
+
+Status validate(const ParticleOptions& options) {
+  return Validator("lpm.particles")
+      .within("least_count", options.least_count, 20, 100'000)
+      .within("greatest_count", options.greatest_count, options.least_count, 100'000)
+      .positive("bin_m", options.bin_m)
+      .positive("bin_rad", options.bin_rad)
+      .within("kld_error", options.kld_error, 1e-3, 1.0)
+      .within("kld_quantile", options.kld_quantile, 0.0, 5.0)
+      .within("effective_share", options.effective_share, 0.01, 0.99)
+      .within("max_returns", options.max_returns, 10, 10'000)
+      .status();
+}
+
 Status validate(const LpmOptions& options) {
+  if (const Status particles = validate(options.particles); !particles.ok()) {
+    return particles;
+  }
   const ScrollingMapOptions& map = options.map;
   const MotionModelOptions& motion = options.motion;
   const ScanMatchOptions& match = options.match;

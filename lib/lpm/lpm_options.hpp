@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
 #include "base/result.hpp"
 
 namespace cairn {
@@ -39,11 +43,41 @@ struct ScanMatchOptions {
   double search_turn_rad = 0.4;       ///< Half the window of the wide search. [0, 3.2]
 };
 
+/// How scans are matched with the scrolling map. In the configuration file: "correlative" or
+/// "particles".
+enum class MatcherKind : std::uint8_t {
+  kCorrelative,  ///< Least squares, and correlative search where that fails.
+  kParticles,    ///< The papers' particle filter.
+};
+
+/// The name of a kind, as in the configuration file.
+[[nodiscard]] std::string_view to_string(MatcherKind kind);
+/// None for a name that is no kind's.
+[[nodiscard]] std::optional<MatcherKind> matcher_kind_of(std::string_view name);
+
+/// Tuning of the particle filter. In the configuration file: the object "lpm.particles".
+struct ParticleOptions {
+  int least_count = 200;         ///< [20, 100000]
+  int greatest_count = 2'000;    ///< >= least_count, at most 100000
+  double bin_m = 0.05;           ///< Particles closer than this count as alike, > 0
+  double bin_rad = 0.03;         ///< and this. > 0
+  double kld_error = 0.05;       ///< Of the sampled belief. (0, 1)
+  double kld_quantile = 2.33;    ///< Of the normal distribution: 2.33 for 99 %. [0, 5]
+  double effective_share = 0.5;  ///< Of particles that a tempering step must leave. (0, 1)
+  int max_returns = 120;         ///< Returns weighed per particle. [10, 10000]
+  std::int64_t seed = 1;         ///< Same seed, same scans: same poses, bit for bit.
+};
+
+/// Names every field that is out of range, with its value.
+[[nodiscard]] Status validate(const ParticleOptions& options);
+
 /// The local metrical layer. In the configuration file: the object "lpm".
 struct LpmOptions {
   ScrollingMapOptions map;
   MotionModelOptions motion;
   ScanMatchOptions match;
+  MatcherKind matcher = MatcherKind::kCorrelative;
+  ParticleOptions particles;        ///< Where `matcher` says so.
   double insert_every_m = 0.2;      ///< The map takes a scan after this travel, [0, 5]
   double insert_every_rad = 0.2;    ///< or after this turn. [0, 3.2]
   double renewal_travel_m = 8.0;    ///< Travel after which the map is another one: per renewal the

@@ -2,19 +2,6 @@
 
 namespace cairn {
 
-std::string_view to_string(MatcherKind kind) {
-  return kind == MatcherKind::kParticles ? "particles" : "correlative";
-}
-
-std::optional<MatcherKind> matcher_kind_of(std::string_view name) {
-  for (const MatcherKind kind : {MatcherKind::kCorrelative, MatcherKind::kParticles}) {
-    if (name == to_string(kind)) {
-      return kind;
-    }
-  }
-  return std::nullopt;
-}
-
 Matcher::Matcher(MatcherKind kind,
                  const ScanMatchOptions& options,
                  const ParticleOptions& particles)

@@ -10,7 +10,6 @@
 #include <Eigen/LU>
 
 #include "base/check.hpp"
-#include "base/validator.hpp"
 #include "lpm/match_score.hpp"
 #include "lpm/surface_points.hpp"
 
@@ -57,21 +56,10 @@ Matrix3d information_gained(const Matrix3d& prior, const Matrix3d& posterior) {
 
 }  // namespace
 
-Status validate(const ParticleOptions& options) {
-  return Validator("lpm.particles")
-      .within("least_count", options.least_count, 20, 100'000)
-      .within("greatest_count", options.greatest_count, options.least_count, 100'000)
-      .positive("bin_m", options.bin_m)
-      .positive("bin_rad", options.bin_rad)
-      .within("kld_error", options.kld_error, 1e-3, 1.0)
-      .within("kld_quantile", options.kld_quantile, 0.0, 5.0)
-      .within("effective_share", options.effective_share, 0.01, 0.99)
-      .within("max_returns", options.max_returns, 10, 10'000)
-      .status();
-}
-
 ParticleMatcher::ParticleMatcher(const ScanMatchOptions& options, const ParticleOptions& particles)
-    : options_(options), particles_(particles), random_(particles.seed) {
+    : options_(options),
+      particles_(particles),
+      random_(static_cast<std::uint64_t>(particles.seed)) {
   CAIRN_CHECK(validate(particles).ok());
 }
 

@@ -14,22 +14,6 @@
 
 namespace cairn {
 
-/// Tuning of the particle filter. In the configuration file: the object "lpm.particles".
-struct ParticleOptions {
-  int least_count = 200;         ///< [20, 100000]
-  int greatest_count = 2'000;    ///< >= least_count, at most 100000
-  double bin_m = 0.05;           ///< Particles closer than this count as alike, > 0
-  double bin_rad = 0.03;         ///< and this. > 0
-  double kld_error = 0.05;       ///< Of the sampled belief. (0, 1)
-  double kld_quantile = 2.33;    ///< Of the normal distribution: 2.33 for 99 %. [0, 5]
-  double effective_share = 0.5;  ///< Of particles that a tempering step must leave. (0, 1)
-  int max_returns = 120;         ///< Returns weighed per particle. [10, 10000]
-  std::uint64_t seed = 1;        ///< Same seed, same scans: same poses, bit for bit.
-};
-
-/// Names every field that is out of range, with its value.
-[[nodiscard]] Status validate(const ParticleOptions& options);
-
 /// Matches scans with the scrolling map by a particle filter over poses: the papers' own method,
 /// with the interface of ScanMatcher.
 ///

@@ -173,7 +173,7 @@ TEST_F(ParticleMatcherTest, HasNoBiasOverSeeds) {
   constexpr int kSeeds = 20;
   for (int seed = 0; seed < kSeeds; ++seed) {
     ParticleOptions options;
-    options.seed = static_cast<std::uint64_t>(seed);
+    options.seed = seed;
     ParticleMatcher matcher(ScanMatchOptions{}, options);
     matcher.take(beams_of(scan));
     const Pose2 found = matcher.match(map, unsure_about(Pose2(), 0.1, 0.06)).fit.T_lpm_robot;
