@@ -63,16 +63,13 @@ OrderedJson json_of(const RelationErrors& errors) {
 }
 
 OrderedJson json_of(const LocalmapRun& run, const std::optional<RelationReport>& report) {
-  OrderedJson json = {{"scans", run.track.size()},
-                      {"travel_m", run.travel_m()},
-                      {"refused", run.refused},
-                      {"restarts", run.restarts},
-                      {"degenerate", run.degenerate},
-                      {"notes", run.notes},
-                      {"scans_without_odometry", run.joiner.scans_without_odometry},
-                      {"map_bytes", run.map_bytes},
-                      {"peak_resident_bytes", peak_resident_bytes()},
-                      {"damage", run.damage}};
+  OrderedJson json = {
+      {"scans", run.track.size()},    {"travel_m", run.travel_m()},
+      {"refused", run.refused},       {"restarts", run.restarts},
+      {"degenerate", run.degenerate}, {"notes", run.notes},
+      {"faults", run.faults},         {"scans_without_odometry", run.joiner.scans_without_odometry},
+      {"map_bytes", run.map_bytes},   {"peak_resident_bytes", peak_resident_bytes()},
+      {"damage", run.damage}};
   for (const auto& [name, times] : stages_of(run)) {
     json["cpu_ms"][name] = {{"mean", times->mean_ms()},
                             {"p50", times->quantile_ms(0.5)},
@@ -106,6 +103,9 @@ void print(const LocalmapRun& run, const std::optional<RelationReport>& report, 
       << clients::byte_size(static_cast<std::int64_t>(run.map_bytes)) << '\n';
   for (const auto& [note, count] : run.notes) {
     out << "  " << note << ": " << grouped(count) << '\n';
+  }
+  for (const auto& [fault, count] : run.faults) {
+    out << "  odometry against scans, " << fault << ": " << grouped(count) << '\n';
   }
   clients::Table table({"CPU ms per scan", "mean", "median", "99 %", "most"});
   for (const auto& [name, times] : stages_of(run)) {

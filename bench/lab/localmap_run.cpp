@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 #include <utility>
 
 #include "bench/lab/resources.hpp"
@@ -75,6 +76,9 @@ class Runner {
   void record(const JoinedScan& joined, const LocalFix& fix, bool is_drawn) {
     keep_pose(joined, fix);
     ++run_->notes[to_string(fix.note)];
+    if (fix.fault != MotionFault::kNone) {
+      ++run_->faults[std::string(to_string(fix.fault))];
+    }
     run_->refused += fix.is_matched || fix.note == FixNote::kFirst ? 0 : 1;
     run_->degenerate += fix.is_degenerate ? 1 : 0;
     if (is_drawn) {

@@ -31,20 +31,68 @@ OptionObject describe(ScrollingMapOptions* map) {
   return object;
 }
 
-OptionObject describe(MotionModelOptions* motion) {
-  OptionObject object("motion",
-                      "How far dead reckoning is believed between two scans: standard deviations.");
-  object.number("drive_noise_m_per_m", &motion->drive_noise_m_per_m, {0, 1}, "Ahead, by driving.")
-      .number("slide_noise_m_per_m", &motion->slide_noise_m_per_m, {0, 1}, "Sideways, by driving.")
-      .number("turn_noise_rad_per_rad", &motion->turn_noise_rad_per_rad, {0, 1},
-              "Heading, by turning.")
-      .number("turn_noise_rad_per_m", &motion->turn_noise_rad_per_m, {0, 1}, "Heading, by driving.")
-      .number("drive_noise_m", &motion->drive_noise_m, {1e-4, 1}, "Per scan, even at rest.")
-      .number("turn_noise_rad", &motion->turn_noise_rad, {1e-4, 1}, "Per scan, even at rest.")
-      .number("max_speed_m_per_s", &motion->max_speed_m_per_s, {0.01, 100},
+OptionObject describe(MotionLearningOptions* learning) {
+  OptionObject object("learning", "How odometry is calibrated, and its noise learned, by matches.");
+  OdometryNoise* const first = &learning->first;
+  OptionObject noise("first", "Variances of odometry believed beforehand.");
+  noise.number("drive_m2_per_m", &first->drive_m2_per_m, {1e-9, 10}, "Ahead, by driving.")
+      .number("slide_m2_per_m", &first->slide_m2_per_m, {1e-9, 10}, "Sideways, by driving.")
+      .number("turn_rad2_per_rad", &first->turn_rad2_per_rad, {1e-9, 10}, "Heading, by turning.")
+      .number("turn_rad2_per_m", &first->turn_rad2_per_m, {1e-9, 10}, "Heading, by driving.")
+      .number("rest_m2_per_step", &first->rest_m2_per_step, {1e-9, 10}, "Per scan, even at rest.")
+      .number("rest_rad2_per_step", &first->rest_rad2_per_step, {1e-9, 10},
+              "Per scan, even at rest.");
+  object.object(std::move(noise))
+      .number("least_share", &learning->least_share, {1e-6, 1}, "Floor of each, of the first.")
+      .number("greatest_share", &learning->greatest_share, {1, 10000},
+              "Ceiling of each, of the first.")
+      .number("lesson_m", &learning->lesson_m, {0.001, 100},
+              "Travel after which odometry and matches are compared,")
+      .number("lesson_rad", &learning->lesson_rad, {0.001, 100}, "or turn,")
+      .integer("lesson_steps", &learning->lesson_steps, {1, 1000}, "or scans.")
+      .number("noise_memory_lessons", &learning->noise_memory_lessons, {2, 1e5},
+              "Older lessons on noise have faded.")
+      .number("calibration_memory_lessons", &learning->calibration_memory_lessons, {2, 1e6},
+              "Older lessons on calibration have faded.")
+      .number("drive_scale_sigma", &learning->drive_scale_sigma, {1e-4, 1}, "Of 1, beforehand.")
+      .number("turn_scale_sigma", &learning->turn_scale_sigma, {1e-4, 1}, "Of 1, beforehand.")
+      .number("turn_sigma_rad_per_m", &learning->turn_sigma_rad_per_m, {1e-4, 1},
+              "Of unlike wheels, beforehand.")
+      .number("slide_sigma_m_per_m", &learning->slide_sigma_m_per_m, {1e-4, 1},
+              "Of a laser mounted askew, beforehand.")
+      .number("lever_sigma_m", &learning->lever_sigma_m, {1e-4, 1},
+              "Of the laser's place, beforehand.")
+      .number("bound_sigmas", &learning->bound_sigmas, {1, 10},
+              "Calibration never leaves this many of its sigmas.");
+  return object;
+}
+
+OptionObject describe(MotionOptions* motion) {
+  OptionObject object("motion", "How motion is foretold, to start matching from.");
+  object.object(describe(&motion->learning))
+      .flag("learns", &motion->learns, "Odometry is corrected, and believed as it has earned.")
+      .number("widening", &motion->widening, {1, 100}, "Variances count as so much larger,")
+      .number("least_sigma_m", &motion->least_sigma_m, {1e-5, 1}, "and this is added,")
+      .number("least_sigma_rad", &motion->least_sigma_rad, {1e-5, 1}, "and this.");
+  return object;
+}
+
+OptionObject describe(MotionWatchOptions* watch) {
+  OptionObject object("motion_watch", "When odometry and scans disagree so much that it is said.");
+  object
+      .number("max_speed_m_per_s", &watch->max_speed_m_per_s, {0.01, 100},
               "Faster odometry is not believed.")
-      .number("max_turn_rate_rad_per_s", &motion->max_turn_rate_rad_per_s, {0.01, 100},
-              "Faster odometry is not believed.");
+      .number("max_turn_rate_rad_per_s", &watch->max_turn_rate_rad_per_s, {0.01, 100},
+              "Faster odometry is not believed.")
+      .integer("window_steps", &watch->window_steps, {1, 100},
+               "Scans over which slips and lifts add up.")
+      .number("alarm_sigmas", &watch->alarm_sigmas, {3, 100}, "Disagreement that is no noise,")
+      .number("least_m", &watch->least_m, {0.001, 10}, "if it is as much as this,")
+      .number("least_rad", &watch->least_rad, {0.001, 3.2}, "or this.")
+      .number("flip_travel_m", &watch->flip_travel_m, {0.1, 1000},
+              "Travel that convicts a reversed laser.")
+      .number("flip_turn_rad", &watch->flip_turn_rad, {0.1, 1000},
+              "Turning that convicts one upside down.");
   return object;
 }
 
@@ -89,6 +137,7 @@ OptionObject describe(LpmOptions* lpm) {
   OptionObject object("lpm", "The local metrical layer (local perceptual map).");
   object.object(describe(&lpm->map))
       .object(describe(&lpm->motion))
+      .object(describe(&lpm->motion_watch))
       .object(describe(&lpm->match))
       .choice(
           "matcher", [lpm] { return static_cast<int>(lpm->matcher); },

@@ -33,11 +33,14 @@ Status validate(const ParticleOptions& options) {
 }
 
 Status validate(const LpmOptions& options) {
-  if (const Status particles = validate(options.particles); !particles.ok()) {
-    return particles;
+  for (const Status& part : {validate(options.particles), validate(options.motion.learning),
+                             validate(options.motion_watch)}) {
+    if (!part.ok()) {
+      return part;
+    }
   }
   const ScrollingMapOptions& map = options.map;
-  const MotionModelOptions& motion = options.motion;
+  const MotionOptions& motion = options.motion;
   const ScanMatchOptions& match = options.match;
   return Validator("lpm")
       .within("map.cell_m", map.cell_m, 0.01, 0.5)
@@ -48,14 +51,9 @@ Status validate(const LpmOptions& options) {
       .within("map.miss_log_odds", map.miss_log_odds, 0.41, 3.0)
       .within("map.max_log_odds", map.max_log_odds, 1.0, 20.0)
       .positive("map.max_free_range_m", map.max_free_range_m)
-      .within("motion.drive_noise_m_per_m", motion.drive_noise_m_per_m, 0.0, 1.0)
-      .within("motion.slide_noise_m_per_m", motion.slide_noise_m_per_m, 0.0, 1.0)
-      .within("motion.turn_noise_rad_per_rad", motion.turn_noise_rad_per_rad, 0.0, 1.0)
-      .within("motion.turn_noise_rad_per_m", motion.turn_noise_rad_per_m, 0.0, 1.0)
-      .within("motion.drive_noise_m", motion.drive_noise_m, 1e-5, 1.0)
-      .within("motion.turn_noise_rad", motion.turn_noise_rad, 1e-5, 1.0)
-      .positive("motion.max_speed_m_per_s", motion.max_speed_m_per_s)
-      .positive("motion.max_turn_rate_rad_per_s", motion.max_turn_rate_rad_per_s)
+      .within("motion.widening", motion.widening, 1.0, 100.0)
+      .within("motion.least_sigma_m", motion.least_sigma_m, 1e-5, 1.0)
+      .within("motion.least_sigma_rad", motion.least_sigma_rad, 1e-5, 1.0)
       .within("match.point_spacing_m", match.point_spacing_m, 0.0, 10.0)
       .positive("match.max_match_range_m", match.max_match_range_m)
       .within("match.hit_sigma_m", match.hit_sigma_m, 0.001, 1.0)

@@ -5,6 +5,8 @@
 #include <string_view>
 
 #include "base/result.hpp"
+#include "lpm/motion_model.hpp"
+#include "lpm/motion_watch.hpp"
 
 namespace cairn {
 
@@ -19,16 +21,14 @@ struct ScrollingMapOptions {
   double max_free_range_m = 20.0;  ///< A beam without return frees no more than this. > 0
 };
 
-/// How far dead reckoning is believed between two scans: one standard deviation.
-struct MotionModelOptions {
-  double drive_noise_m_per_m = 0.30;     ///< [0, 1]
-  double slide_noise_m_per_m = 0.30;     ///< Sideways. [0, 1]
-  double turn_noise_rad_per_rad = 0.30;  ///< [0, 1]
-  double turn_noise_rad_per_m = 0.20;    ///< [0, 1]
-  double drive_noise_m = 0.10;           ///< Per scan, even at rest. > 0
-  double turn_noise_rad = 0.02;          ///< Per scan, even at rest. > 0
-  double max_speed_m_per_s = 3.0;        ///< Faster odometry is not believed. > 0
-  double max_turn_rate_rad_per_s = 6.0;  ///< Faster odometry is not believed. > 0
+/// How motion is foretold from one scan to the next, to start matching from. In the configuration
+/// file: the object "lpm.motion".
+struct MotionOptions {
+  MotionLearningOptions learning;
+  bool learns = true;             ///< Odometry is corrected, and believed as far as it has earned.
+  double widening = 9.0;          ///< Variances foretold count as so much larger, [1, 100]
+  double least_sigma_m = 0.05;    ///< and this is added, > 0
+  double least_sigma_rad = 0.02;  ///< and this. > 0
 };
 
 /// Scan matching against the scrolling map.
@@ -74,7 +74,8 @@ struct ParticleOptions {
 /// The local metrical layer. In the configuration file: the object "lpm".
 struct LpmOptions {
   ScrollingMapOptions map;
-  MotionModelOptions motion;
+  MotionOptions motion;
+  MotionWatchOptions motion_watch;
   ScanMatchOptions match;
   MatcherKind matcher = MatcherKind::kCorrelative;
   ParticleOptions particles;        ///< Where `matcher` says so.

@@ -32,8 +32,8 @@ Matrix3d turned(const Matrix3d& covariance, double angle_rad) {
 }  // namespace
 
 Status validate(const MotionLearningOptions& options) {
-  const MotionNoise& first = options.first;
-  return Validator("lpm.motion_learning")
+  const OdometryNoise& first = options.first;
+  return Validator("lpm.motion.learning")
       .within("first.drive_m2_per_m", first.drive_m2_per_m, 1e-9, 10.0)
       .within("first.slide_m2_per_m", first.slide_m2_per_m, 1e-9, 10.0)
       .within("first.turn_rad2_per_rad", first.turn_rad2_per_rad, 1e-9, 10.0)
@@ -203,7 +203,7 @@ void MotionModel::learn_noise(const Step& error,
     const bool is_vague = of_match > kVagueMatch * random;
     return gain * (is_vague ? std::max(score, 0.0) : score) / variance;
   };
-  const MotionNoise& first = options_.first;
+  const OdometryNoise& first = options_.first;
   const double drive = change(error.drive_m, expected.drive_m2, match.drive_m2);
   const double slide = change(error.slide_m, expected.slide_m2, match.slide_m2);
   const double turn = change(error.turn_rad, expected.turn_rad2, match.turn_rad2);

@@ -12,7 +12,7 @@ namespace cairn {
 /// Source: the velocity model of Thrun, Burgard and Fox, "Probabilistic Robotics", Sec. 5.3, with
 /// variances that grow with travel instead of its square: what grows with the square is systematic,
 /// and has its place in OdometryCalibration.
-struct MotionNoise {
+struct OdometryNoise {
   double drive_m2_per_m = 0.02;      ///< Ahead, by driving.
   double slide_m2_per_m = 0.02;      ///< Sideways, by driving.
   double turn_rad2_per_rad = 0.02;   ///< By turning.
@@ -32,9 +32,9 @@ struct OdometryCalibration {
   double drive_m_per_rad = 0.0;  ///< Ahead per radian turned: the laser is so far to the right.
 };
 
-/// How the motion model learns. In the configuration file: the object "lpm.motion_learning".
+/// How the motion model learns. In the configuration file: the object "lpm.motion.learning".
 struct MotionLearningOptions {
-  MotionNoise first;             ///< Believed before anything is learned. All > 0.
+  OdometryNoise first;           ///< Believed before anything is learned. All > 0.
   double least_share = 1e-3;     ///< Floor of each noise, as a share of the first. (0, 1]
   double greatest_share = 16.0;  ///< Ceiling of each noise, as a share of the first. [1, 1e4]
   double lesson_m = 0.20;        ///< Travel after which odometry and matches are compared, > 0
@@ -81,7 +81,7 @@ class MotionModel {
   /// What was gathered for the lesson under way is dropped.
   void skip();
 
-  [[nodiscard]] const MotionNoise& noise() const { return noise_; }
+  [[nodiscard]] const OdometryNoise& noise() const { return noise_; }
   [[nodiscard]] OdometryCalibration calibration() const;
   [[nodiscard]] int lessons() const { return lessons_; }
 
@@ -118,7 +118,7 @@ class MotionModel {
   [[nodiscard]] double climbed(double value, double first, double change) const;
 
   MotionLearningOptions options_;
-  MotionNoise noise_;
+  OdometryNoise noise_;
   LinearError drive_;  // by drive and turn
   LinearError slide_;  // by drive and turn
   LinearError turn_;   // by turn and drive

@@ -78,6 +78,7 @@ Status validate(const MotionWatchOptions& options) {
 
 MotionWatch::MotionWatch(const MotionWatchOptions& options) : options_(options) {
   CAIRN_CHECK(validate(options).ok());
+  window_.reserve(static_cast<std::size_t>(options.window_steps));
 }
 
 void MotionWatch::Agreement::add(double odometry_part, double matched_part, double memory) {
@@ -123,10 +124,10 @@ MotionFault MotionWatch::judge(const MotionEvidence& evidence) {
   note_repeats(step, evidence.is_scan_repeated);
   note_agreement(step);
   const MotionFault sudden = sudden_fault(step);  // against what went before
-  window_.push_back(step);
-  while (window_.size() > static_cast<std::size_t>(options_.window_steps)) {
-    window_.pop_front();
+  if (window_.size() >= static_cast<std::size_t>(options_.window_steps)) {
+    window_.erase(window_.begin());
   }
+  window_.push_back(step);
   if (repeated_scans_ >= kRepeats && (repeated_odometry_.head<2>().norm() >= options_.least_m ||
                                       std::abs(repeated_odometry_.z()) >= options_.least_rad)) {
     return MotionFault::kScanStalled;

@@ -2,8 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <string_view>
+#include <vector>
 
 #include "base/result.hpp"
 #include "geometry/gaussian_pose.hpp"
@@ -98,7 +98,7 @@ class MotionWatch {
   [[nodiscard]] Step windowed() const;
 
   MotionWatchOptions options_;
-  std::deque<Step> window_;
+  std::vector<Step> window_;  // oldest first
   int frozen_steps_ = 0;      // odometry has repeated itself so often
   bool was_driving_ = false;  // by odometry, when it froze
   int repeated_scans_ = 0;
