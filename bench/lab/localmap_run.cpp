@@ -25,6 +25,18 @@ double seconds_of(TimePoint time) {
   return static_cast<double>(utime_of(time)) * 1e-6;
 }
 
+/// A trajectory has one pose at a time. Where stamps repeat, those of later messages are wrong.
+std::vector<TrackedPose> first_of_each_stamp(std::vector<TrackedPose> poses) {
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const TrackedPose& a, const TrackedPose& b) { return a.time_s < b.time_s; });
+  poses.erase(std::unique(poses.begin(), poses.end(),
+                          [](const TrackedPose& a, const TrackedPose& b) {
+                            return a.time_s == b.time_s;  // of whole microseconds, both
+                          }),
+              poses.end());
+  return poses;
+}
+
 /// The local layer with a clock around its stages.
 class Runner {
  public:
@@ -175,6 +187,7 @@ LocalmapRun run_localmap(const std::string& log, const DaemonOptions& options) {
     throw Failure(ExitCode::kBadData,
                   log + ": no scan in it" + (reader->damage() ? "; " + *reader->damage() : ""));
   }
+  run.poses = first_of_each_stamp(std::move(run.poses));
   run.damage = reader->damage().value_or("");
   return run;
 }

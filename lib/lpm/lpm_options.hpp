@@ -26,7 +26,7 @@ struct ScrollingMapOptions {
 struct MotionOptions {
   MotionLearningOptions learning;
   bool learns = true;             ///< Odometry is corrected, and believed as far as it has earned.
-  double widening = 9.0;          ///< Variances foretold count as so much larger, [1, 100]
+  double widening = 25.0;         ///< Variances foretold count as so much larger, [1, 100]
   double least_sigma_m = 0.05;    ///< and this is added, > 0
   double least_sigma_rad = 0.02;  ///< and this. > 0
 };
