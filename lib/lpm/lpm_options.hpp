@@ -58,7 +58,7 @@ enum class MatcherKind : std::uint8_t {
 /// Tuning of the particle filter. In the configuration file: the object "lpm.particles".
 struct ParticleOptions {
   int least_count = 200;         ///< [20, 100000]
-  int greatest_count = 2'000;    ///< >= least_count, at most 100000
+  int greatest_count = 2'000;    ///< [20, 100000]; below the least count it counts as that.
   double bin_m = 0.05;           ///< Particles closer than this count as alike, > 0
   double bin_rad = 0.03;         ///< and this. > 0
   double kld_error = 0.05;       ///< Of the sampled belief. (0, 1)

@@ -142,7 +142,7 @@ ScanMatch ParticleMatcher::filtered(const ScrollingMap& map,
 
 std::size_t ParticleMatcher::enough(std::size_t bins) const {
   const auto least = static_cast<std::size_t>(particles_.least_count);
-  const auto greatest = static_cast<std::size_t>(particles_.greatest_count);
+  const auto greatest = std::max(least, static_cast<std::size_t>(particles_.greatest_count));
   if (bins < 2) {
     return least;
   }
