@@ -63,16 +63,13 @@ OrderedJson json_of(const RelationErrors& errors) {
 }
 
 OrderedJson json_of(const LocalmapRun& run, const std::optional<RelationReport>& report) {
-  OrderedJson json = {{"scans", run.track.size()},
-                      {"travel_m", run.travel_m()},
-                      {"refused", run.refused},
-                      {"restarts", run.restarts},
-                      {"degenerate", run.degenerate},
-                      {"notes", run.notes},
-                      {"scans_without_odometry", run.joiner.scans_without_odometry},
-                      {"map_bytes", run.map_bytes},
-                      {"peak_resident_bytes", peak_resident_bytes()},
-                      {"damage", run.damage}};
+  OrderedJson json = {
+      {"scans", run.track.size()},    {"travel_m", run.travel_m()},
+      {"refused", run.refused},       {"restarts", run.restarts},
+      {"degenerate", run.degenerate}, {"notes", run.notes},
+      {"faults", run.faults},         {"scans_without_odometry", run.joiner.scans_without_odometry},
+      {"map_bytes", run.map_bytes},   {"peak_resident_bytes", peak_resident_bytes()},
+      {"damage", run.damage}};
   for (const auto& [name, times] : stages_of(run)) {
     json["cpu_ms"][name] = {{"mean", times->mean_ms()},
                             {"p50", times->quantile_ms(0.5)},
@@ -107,6 +104,9 @@ void print(const LocalmapRun& run, const std::optional<RelationReport>& report, 
   for (const auto& [note, count] : run.notes) {
     out << "  " << note << ": " << grouped(count) << '\n';
   }
+  for (const auto& [fault, count] : run.faults) {
+    out << "  odometry against scans, " << fault << ": " << grouped(count) << '\n';
+  }
   clients::Table table({"CPU ms per scan", "mean", "median", "99 %", "most"});
   for (const auto& [name, times] : stages_of(run)) {
     table.add({name, fixed(times->mean_ms(), 4), fixed(times->quantile_ms(0.5), 4),
@@ -132,7 +132,14 @@ std::string trajectory_of(const LocalmapRun& run) {
 }
 
 int track(const LocalmapRequest& request, const Streams& streams) {
-  const DaemonOptions options = options_of(request.config_file);
+  DaemonOptions options = options_of(request.config_file);
+  if (!request.matcher.empty()) {
+    const std::optional<MatcherKind> kind = matcher_kind_of(request.matcher);
+    if (!kind) {
+      throw Failure(ExitCode::kUsage, "--matcher: either correlative or particles");
+    }
+    options.service.lpm.matcher = *kind;
+  }
   std::vector<Relation> relations;
   if (!request.relations_file.empty()) {
     relations = read_relations(request.relations_file);
@@ -174,6 +181,7 @@ void add_localmap_command(CLI::App& app, const Streams& streams, int* status) {
   };
   file("LOG", &request->log, "CARMEN log, or LCM event log")->required();
   file("--config", &request->config_file, "The daemon's configuration");
+  command->add_option("--matcher", request->matcher, "correlative or particles")->type_name("NAME");
   file("--relations", &request->relations_file, "True relations of poses: report the error");
   file("--png", &request->png_file, "Draw what was seen, and the way");
   file("--trajectory", &request->trajectory_file, "The poses, as lines t x y theta");

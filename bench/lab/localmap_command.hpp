@@ -10,6 +10,7 @@ namespace cairn::lab {
 struct LocalmapRequest {
   std::string log;
   std::string config_file;
+  std::string matcher;  ///< Name of a MatcherKind; empty: as configured.
   std::string relations_file;
   std::string png_file;
   std::string trajectory_file;

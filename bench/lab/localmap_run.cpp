@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 #include <utility>
 
 #include "bench/lab/resources.hpp"
@@ -22,6 +23,18 @@ using clients::Failure;
 
 double seconds_of(TimePoint time) {
   return static_cast<double>(utime_of(time)) * 1e-6;
+}
+
+/// A trajectory has one pose at a time. Where stamps repeat, those of later messages are wrong.
+std::vector<TrackedPose> first_of_each_stamp(std::vector<TrackedPose> poses) {
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const TrackedPose& a, const TrackedPose& b) { return a.time_s < b.time_s; });
+  poses.erase(std::unique(poses.begin(), poses.end(),
+                          [](const TrackedPose& a, const TrackedPose& b) {
+                            return a.time_s == b.time_s;  // of whole microseconds, both
+                          }),
+              poses.end());
+  return poses;
 }
 
 /// The local layer with a clock around its stages.
@@ -75,6 +88,9 @@ class Runner {
   void record(const JoinedScan& joined, const LocalFix& fix, bool is_drawn) {
     keep_pose(joined, fix);
     ++run_->notes[to_string(fix.note)];
+    if (fix.fault != MotionFault::kNone) {
+      ++run_->faults[std::string(to_string(fix.fault))];
+    }
     run_->refused += fix.is_matched || fix.note == FixNote::kFirst ? 0 : 1;
     run_->degenerate += fix.is_degenerate ? 1 : 0;
     if (is_drawn) {
@@ -171,6 +187,7 @@ LocalmapRun run_localmap(const std::string& log, const DaemonOptions& options) {
     throw Failure(ExitCode::kBadData,
                   log + ": no scan in it" + (reader->damage() ? "; " + *reader->damage() : ""));
   }
+  run.poses = first_of_each_stamp(std::move(run.poses));
   run.damage = reader->damage().value_or("");
   return run;
 }

@@ -31,9 +31,11 @@ struct StageTimes {
 struct LocalmapRun {
   std::vector<TrackedPose> track;  ///< At every scan, in the order of the log.
   /// The same, and between two scans at every sample of odometry: its way bent to end at the fix.
+  /// In the order of time; of those with the same stamp only the one that came first.
   std::vector<TrackedPose> poses;
-  std::vector<Vector2d> walls_lpm;            ///< Some of the returns, where the map took them up.
-  std::map<std::string, std::int64_t> notes;  ///< How the fixes came about.
+  std::vector<Vector2d> walls_lpm;             ///< Some of the returns, where the map took them up.
+  std::map<std::string, std::int64_t> notes;   ///< How the fixes came about.
+  std::map<std::string, std::int64_t> faults;  ///< Scans at which odometry disagreed, by reason.
   std::int64_t refused = 0;
   std::int64_t restarts = 0;
   std::int64_t degenerate = 0;

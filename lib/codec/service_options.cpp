@@ -1,5 +1,7 @@
 #include "codec/service_options.hpp"
 
+#include "codec/lpm_description.hpp"
+
 namespace cairn {
 namespace {
 
@@ -12,72 +14,6 @@ OptionObject describe(JoinerOptions* joiner) {
               "A longer jump back is a stray stamp, three that agree a new clock.")
       .number("clock_step_ahead_s", &joiner->clock_step_ahead_s, {1, 1e9},
               "A longer jump ahead is a stray stamp, three that agree a new clock.");
-  return object;
-}
-
-OptionObject describe(ScrollingMapOptions* map) {
-  OptionObject object("map", "The scrolling occupancy grid around the robot.");
-  object.number("cell_m", &map->cell_m, {0.01, 0.5}, "Side of a cell.")
-      .number("window_m", &map->window_m, {4, 200}, "Side of the square window.")
-      .number("memory_travel_m", &map->memory_travel_m, {1, 10000},
-              "What was not seen for this travel is forgotten, so that no large loop closes here.")
-      .number("hit_log_odds", &map->hit_log_odds, {0.41, 3}, "Added to the cell a beam ends in.")
-      .number("miss_log_odds", &map->miss_log_odds, {0.41, 3},
-              "Taken from a cell a beam passes through.")
-      .number("max_log_odds", &map->max_log_odds, {1, 20},
-              "Clamp, so that what has moved away fades.")
-      .number("max_free_range_m", &map->max_free_range_m, {0.1, 200},
-              "A beam without return frees no more than this.");
-  return object;
-}
-
-OptionObject describe(MotionModelOptions* motion) {
-  OptionObject object("motion",
-                      "How far dead reckoning is believed between two scans: standard deviations.");
-  object.number("drive_noise_m_per_m", &motion->drive_noise_m_per_m, {0, 1}, "Ahead, by driving.")
-      .number("slide_noise_m_per_m", &motion->slide_noise_m_per_m, {0, 1}, "Sideways, by driving.")
-      .number("turn_noise_rad_per_rad", &motion->turn_noise_rad_per_rad, {0, 1},
-              "Heading, by turning.")
-      .number("turn_noise_rad_per_m", &motion->turn_noise_rad_per_m, {0, 1}, "Heading, by driving.")
-      .number("drive_noise_m", &motion->drive_noise_m, {1e-4, 1}, "Per scan, even at rest.")
-      .number("turn_noise_rad", &motion->turn_noise_rad, {1e-4, 1}, "Per scan, even at rest.")
-      .number("max_speed_m_per_s", &motion->max_speed_m_per_s, {0.01, 100},
-              "Faster odometry is not believed.")
-      .number("max_turn_rate_rad_per_s", &motion->max_turn_rate_rad_per_s, {0.01, 100},
-              "Faster odometry is not believed.");
-  return object;
-}
-
-OptionObject describe(ScanMatchOptions* match) {
-  OptionObject object("match", "Scan matching against the scrolling map.");
-  object
-      .number("point_spacing_m", &match->point_spacing_m, {0, 5},
-              "Returns closer together than this are thinned.")
-      .number("max_match_range_m", &match->max_match_range_m, {0.5, 200},
-              "Farther returns are not matched.")
-      .number("hit_sigma_m", &match->hit_sigma_m, {0.001, 1}, "Spread of a return around the wall.")
-      .number("independent_share", &match->independent_share, {0.001, 1},
-              "Share of the returns that count as independent.")
-      .number("min_explained_share", &match->min_explained_share, {0, 1},
-              "Of the returns over known cells; below it a match is refused.")
-      .integer("min_returns", &match->min_returns, {3, 10000},
-               "Fewer returns: the sensor is blocked.")
-      .number("search_range_m", &match->search_range_m, {0, 5}, "Half the wide search's window.")
-      .number("search_turn_rad", &match->search_turn_rad, {0, 3.2},
-              "Half the wide search's window.");
-  return object;
-}
-
-OptionObject describe(LpmOptions* lpm) {
-  OptionObject object("lpm", "The local metrical layer (local perceptual map).");
-  object.object(describe(&lpm->map))
-      .object(describe(&lpm->motion))
-      .object(describe(&lpm->match))
-      .number("insert_every_m", &lpm->insert_every_m, {0, 5},
-              "The map takes a scan after this travel,")
-      .number("insert_every_rad", &lpm->insert_every_rad, {0, 3.2}, "or after this turn.")
-      .integer("refusals_before_restart", &lpm->refusals_before_restart, {1, 1000},
-               "So many refused matches in a row: the local map starts afresh.");
   return object;
 }
 

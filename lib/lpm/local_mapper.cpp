@@ -21,11 +21,8 @@ constexpr double kBlindSigma_m = 1.0;  // of a match in a direction it says noth
 constexpr double kBlindSigma_rad = 0.5;
 constexpr double kDegenerateSigma_m = 0.10;
 constexpr double kDegenerateSigma_rad = 0.03;
-constexpr double kMinKnownShare = 0.15;      // of returns over known cells
-constexpr double kSlip = 25.0;               // squared Mahalanobis of fix and prediction
-constexpr double kLeastTimeStep_s = 1.0;     // recorded stamps are not to be trusted below this
-constexpr double kSpeedSigma_m_per_s = 0.5;  // for want of odometry
-constexpr double kTurnSigma_rad_per_s = 0.7;
+constexpr double kMinKnownShare = 0.15;     // of returns over known cells
+constexpr double kSlip = 9.0;               // squared Mahalanobis of fix and widened prediction
 constexpr double kGoodScore = 0.85;         // a match that leaves no wish for another
 constexpr double kLeastOfUsualScore = 0.6;  // a sudden fall below it is a wrong match
 constexpr double kClearlyBetter = 0.05;     // in score
@@ -90,7 +87,10 @@ const char* to_string(FixNote note) {
 }
 
 LocalMapper::LocalMapper(const LpmOptions& options)
-    : options_(options), map_(options.map), matcher_(options.match) {
+    : options_(options),
+      map_(options.map),
+      matcher_(options.matcher, options.match, options.particles),
+      motion_(options.motion, options.motion_watch) {
   CAIRN_CHECK(validate(options).ok());
 }
 
@@ -101,7 +101,8 @@ LocalFix LocalMapper::absorb(const JoinedScan& joined) {
 }
 
 LocalFix LocalMapper::locate(const JoinedScan& joined) {
-  beams_.take(joined.scan, twist_during(joined), options_.map.max_free_range_m);
+  motion_.begin(joined);
+  beams_.take(joined.scan, motion_.twist(), options_.map.max_free_range_m);
   matcher_.take(beams_);
   LocalFix fix;
   fix.time = joined.scan.time;
@@ -110,78 +111,32 @@ LocalFix LocalMapper::locate(const JoinedScan& joined) {
     fix.covariance = diagonal(kLeastSigma_m, kLeastSigma_m, kLeastSigma_rad);
     fix.motion.covariance = fix.covariance;
   } else {
-    bool is_believed = true;
-    const GaussianPose motion = predicted_motion(joined, &is_believed);
-    const GaussianPose predicted = compounded({T_lpm_robot_, uncertainty_}, motion);
+    fix.motion = motion_.predicted();
+    const GaussianPose predicted = compounded({T_lpm_robot_, uncertainty_}, fix.motion);
     fix.T_lpm_robot = predicted.mean;
     fix.covariance = predicted.covariance;
-    fix.motion = motion;
     if (matcher_.is_blocked()) {
       fix.note = FixNote::kBlockedSensor;
     } else {
-      settle(best_match(predicted, seconds_between(time_, fix.time)), predicted, &fix);
+      settle(best_match(predicted), predicted, &fix);
     }
-    if (!is_believed && fix.is_matched) {
+    if (motion_.has_jumped() && fix.is_matched) {
       fix.note = FixNote::kTeleport;
     }
   }
-  advance(joined, fix);
+  advance(joined, &fix);
   return fix;
 }
 
-Twist LocalMapper::twist_during(const JoinedScan& joined) const {
-  constexpr double kLeast_s = 1e-3;
-  const double dt_s = seconds_between(time_, joined.scan.time);
-  if (T_odom_robot_ && joined.T_odom_robot && dt_s >= kLeast_s && dt_s <= kLeastTimeStep_s) {
-    const Pose2 step = T_odom_robot_->inverse() * *joined.T_odom_robot;
-    if (step.translation().norm() <= options_.motion.max_speed_m_per_s * dt_s &&
-        std::abs(step.theta()) <= options_.motion.max_turn_rate_rad_per_s * dt_s) {
-      return {step.x() / dt_s, step.y() / dt_s, step.theta() / dt_s};
-    }
-  }
-  return {};  // what matches say of the speed must not bend the next scan: it would feed on itself
-}
-
-ScanMatch LocalMapper::best_match(const GaussianPose& predicted, double dt_s) {
+ScanMatch LocalMapper::best_match(const GaussianPose& predicted) {
   const ScanMatch match = matcher_.match(map_, predicted);
-  if (match.score >= kGoodScore || !match.was_searched || dt_s <= 0.0) {
+  if (match.score >= kGoodScore || !match.was_searched || motion_.dt_s() <= 0.0) {
     return match;
   }
   // Odometry that stalls and catches up later is wrong twice; the robot just goes on meanwhile.
-  const GaussianPose continued = compounded({T_lpm_robot_, uncertainty_}, continued_motion(dt_s));
+  const GaussianPose continued = compounded({T_lpm_robot_, uncertainty_}, motion_.continued());
   const ScanMatch other = matcher_.match(map_, continued);
   return other.score > match.score + kClearlyBetter ? other : match;
-}
-
-GaussianPose LocalMapper::predicted_motion(const JoinedScan& joined, bool* is_believed) const {
-  const MotionModelOptions& noise = options_.motion;
-  const double dt_s = seconds_between(time_, joined.scan.time);
-  *is_believed = true;
-  if (T_odom_robot_ && joined.T_odom_robot) {
-    const Pose2 step = T_odom_robot_->inverse() * *joined.T_odom_robot;
-    const double drive_m = step.translation().norm();
-    const double turn_rad = std::abs(step.theta());
-    const double possible_s = std::max(std::abs(dt_s), kLeastTimeStep_s);
-    *is_believed = drive_m <= noise.max_speed_m_per_s * possible_s &&
-                   turn_rad <= noise.max_turn_rate_rad_per_s * possible_s;
-    if (*is_believed) {
-      const Matrix3d along_step =
-          diagonal(noise.drive_noise_m + noise.drive_noise_m_per_m * drive_m,
-                   noise.drive_noise_m + noise.slide_noise_m_per_m * drive_m,
-                   noise.turn_noise_rad + noise.turn_noise_rad_per_rad * turn_rad +
-                       noise.turn_noise_rad_per_m * drive_m);
-      return {step, seen_from(along_step, -0.5 * step.theta())};
-    }
-  }
-  return continued_motion(dt_s);
-}
-
-GaussianPose LocalMapper::continued_motion(double dt_s) const {
-  const double span_s = std::clamp(dt_s, 0.0, kLeastTimeStep_s);
-  const double unsure_s = std::max(0.2, span_s);
-  return {Pose2(speed_m_per_s_ * span_s, 0.0, turn_rate_rad_per_s_ * span_s),
-          diagonal(kSpeedSigma_m_per_s * unsure_s, kSpeedSigma_m_per_s * unsure_s,
-                   kTurnSigma_rad_per_s * unsure_s)};
 }
 
 void LocalMapper::settle(const ScanMatch& match, const GaussianPose& predicted, LocalFix* fix) {
@@ -215,25 +170,20 @@ void LocalMapper::settle(const ScanMatch& match, const GaussianPose& predicted, 
       diagonal(kStillSigma_m, kStillSigma_m, kStillSigma_rad);
 }
 
-void LocalMapper::advance(const JoinedScan& joined, const LocalFix& fix) {
-  const double dt_s = seconds_between(time_, joined.scan.time);
-  if (fix.is_matched && dt_s > 0.0) {
-    speed_m_per_s_ = std::clamp(fix.motion.mean.x() / dt_s, -options_.motion.max_speed_m_per_s,
-                                options_.motion.max_speed_m_per_s);
-    turn_rate_rad_per_s_ =
-        std::clamp(fix.motion.mean.theta() / dt_s, -options_.motion.max_turn_rate_rad_per_s,
-                   options_.motion.max_turn_rate_rad_per_s);
-  } else if (!fix.is_matched) {
-    speed_m_per_s_ = 0.0;
-    turn_rate_rad_per_s_ = 0.0;
+void LocalMapper::advance(const JoinedScan& joined, LocalFix* fix) {
+  if (!is_started_) {
+    motion_.start(joined.scan.time, joined.T_odom_robot);
+  } else if (fix->is_matched) {
+    fix->fault = motion_.end(
+        GaussianPose{fix->motion.mean, seen_from(fix->covariance, T_lpm_robot_.theta())});
+  } else {
+    fix->fault = motion_.end(std::nullopt);
   }
-  travel_m_ += (fix.T_lpm_robot.translation() - T_lpm_robot_.translation()).norm();
-  time_ = joined.scan.time;
-  T_lpm_robot_ = fix.T_lpm_robot;
-  T_odom_robot_ = joined.T_odom_robot;
-  uncertainty_ = is_refused(fix.note) ? fix.covariance
-                                      : diagonal(kLeastSigma_m, kLeastSigma_m, kLeastSigma_rad);
-  refusals_ = is_refused(fix.note) ? refusals_ + 1 : 0;
+  travel_m_ += (fix->T_lpm_robot.translation() - T_lpm_robot_.translation()).norm();
+  T_lpm_robot_ = fix->T_lpm_robot;
+  uncertainty_ = is_refused(fix->note) ? fix->covariance
+                                       : diagonal(kLeastSigma_m, kLeastSigma_m, kLeastSigma_rad);
+  refusals_ = is_refused(fix->note) ? refusals_ + 1 : 0;
 }
 
 bool LocalMapper::take_up(const LocalFix& fix) {
@@ -273,13 +223,10 @@ void LocalMapper::restore(const LaserScan& scan,
   }
   map_.insert(scan, T_lpm_robot, travel_m_);
   is_started_ = true;
-  time_ = scan.time;
   T_lpm_robot_ = T_lpm_robot;
   T_lpm_drawn_ = T_lpm_robot;
-  T_odom_robot_ = T_odom_robot;
   uncertainty_ = diagonal(kLeastSigma_m, kLeastSigma_m, kLeastSigma_rad);
-  speed_m_per_s_ = 0.0;
-  turn_rate_rad_per_s_ = 0.0;
+  motion_.start(scan.time, T_odom_robot);
 }
 
 }  // namespace cairn

@@ -5,9 +5,10 @@
 
 #include "geometry/gaussian_pose.hpp"
 #include "grid/occupancy_grid.hpp"
+#include "lpm/dead_reckoning.hpp"
 #include "lpm/lpm_options.hpp"
+#include "lpm/matcher.hpp"
 #include "lpm/scan_beams.hpp"
-#include "lpm/scan_matcher.hpp"
 #include "lpm/scrolling_map.hpp"
 #include "sensing/scan_joiner.hpp"
 
@@ -44,6 +45,8 @@ struct LocalFix {
   bool is_degenerate = false;  ///< The scan does not fix every direction (a corridor, few returns).
   double score = 0.0;  ///< Share of the returns over known cells that fall on walls, [0, 1].
   FixNote note = FixNote::kFirst;
+  /// Why odometry and scans disagree, over this step and those before it.
+  MotionFault fault = MotionFault::kNone;
 };
 
 /// The local metrical layer: tracks the robot within a map of its surroundings that is made on the
@@ -85,26 +88,20 @@ class LocalMapper {
                const std::optional<Pose2>& T_odom_robot);
 
  private:
-  [[nodiscard]] Twist twist_during(const JoinedScan& joined) const;
-  [[nodiscard]] GaussianPose predicted_motion(const JoinedScan& joined, bool* is_believed) const;
-  [[nodiscard]] GaussianPose continued_motion(double dt_s) const;
-  [[nodiscard]] ScanMatch best_match(const GaussianPose& predicted, double dt_s);
+  [[nodiscard]] ScanMatch best_match(const GaussianPose& predicted);
   void settle(const ScanMatch& match, const GaussianPose& predicted, LocalFix* fix);
-  void advance(const JoinedScan& joined, const LocalFix& fix);
+  void advance(const JoinedScan& joined, LocalFix* fix);
 
   LpmOptions options_;
   ScanBeams beams_;  // of the scan taken last
   ScrollingMap map_;
-  ScanMatcher matcher_;
+  Matcher matcher_;
+  DeadReckoning motion_;
   bool is_started_ = false;
-  TimePoint time_;
   Pose2 T_lpm_robot_;
-  std::optional<Pose2> T_odom_robot_;
   Matrix3d uncertainty_ = Matrix3d::Zero();  // of dead reckoning since the last match, lpm frame
   Pose2 T_lpm_drawn_;                        // where the map took its last scan
   double travel_m_ = 0.0;
-  double speed_m_per_s_ = 0.0;  // ahead, for want of odometry
-  double turn_rate_rad_per_s_ = 0.0;
   int refusals_ = 0;
   std::int64_t restarts_ = 0;
 };

@@ -6,9 +6,41 @@
 
 namespace cairn {
 
+std::string_view to_string(MatcherKind kind) {
+  return kind == MatcherKind::kParticles ? "particles" : "correlative";
+}
+
+std::optional<MatcherKind> matcher_kind_of(std::string_view name) {
+  for (const MatcherKind kind : {MatcherKind::kCorrelative, MatcherKind::kParticles}) {
+    if (name == to_string(kind)) {
+      return kind;
+    }
+  }
+  return std::nullopt;
+}
+
+Status validate(const ParticleOptions& options) {
+  return Validator("lpm.particles")
+      .within("least_count", options.least_count, 20, 100'000)
+      .within("greatest_count", options.greatest_count, 20, 100'000)
+      .positive("bin_m", options.bin_m)
+      .positive("bin_rad", options.bin_rad)
+      .within("kld_error", options.kld_error, 1e-3, 1.0)
+      .within("kld_quantile", options.kld_quantile, 0.0, 5.0)
+      .within("effective_share", options.effective_share, 0.01, 0.99)
+      .within("max_returns", options.max_returns, 10, 10'000)
+      .status();
+}
+
 Status validate(const LpmOptions& options) {
+  for (const Status& part : {validate(options.particles), validate(options.motion.learning),
+                             validate(options.motion_watch)}) {
+    if (!part.ok()) {
+      return part;
+    }
+  }
   const ScrollingMapOptions& map = options.map;
-  const MotionModelOptions& motion = options.motion;
+  const MotionOptions& motion = options.motion;
   const ScanMatchOptions& match = options.match;
   return Validator("lpm")
       .within("map.cell_m", map.cell_m, 0.01, 0.5)
@@ -19,14 +51,9 @@ Status validate(const LpmOptions& options) {
       .within("map.miss_log_odds", map.miss_log_odds, 0.41, 3.0)
       .within("map.max_log_odds", map.max_log_odds, 1.0, 20.0)
       .positive("map.max_free_range_m", map.max_free_range_m)
-      .within("motion.drive_noise_m_per_m", motion.drive_noise_m_per_m, 0.0, 1.0)
-      .within("motion.slide_noise_m_per_m", motion.slide_noise_m_per_m, 0.0, 1.0)
-      .within("motion.turn_noise_rad_per_rad", motion.turn_noise_rad_per_rad, 0.0, 1.0)
-      .within("motion.turn_noise_rad_per_m", motion.turn_noise_rad_per_m, 0.0, 1.0)
-      .within("motion.drive_noise_m", motion.drive_noise_m, 1e-5, 1.0)
-      .within("motion.turn_noise_rad", motion.turn_noise_rad, 1e-5, 1.0)
-      .positive("motion.max_speed_m_per_s", motion.max_speed_m_per_s)
-      .positive("motion.max_turn_rate_rad_per_s", motion.max_turn_rate_rad_per_s)
+      .within("motion.widening", motion.widening, 1.0, 100.0)
+      .within("motion.least_sigma_m", motion.least_sigma_m, 1e-5, 1.0)
+      .within("motion.least_sigma_rad", motion.least_sigma_rad, 1e-5, 1.0)
       .within("match.point_spacing_m", match.point_spacing_m, 0.0, 10.0)
       .positive("match.max_match_range_m", match.max_match_range_m)
       .within("match.hit_sigma_m", match.hit_sigma_m, 0.001, 1.0)

@@ -1,6 +1,12 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
 #include "base/result.hpp"
+#include "lpm/motion_model.hpp"
+#include "lpm/motion_watch.hpp"
 
 namespace cairn {
 
@@ -15,16 +21,14 @@ struct ScrollingMapOptions {
   double max_free_range_m = 20.0;  ///< A beam without return frees no more than this. > 0
 };
 
-/// How far dead reckoning is believed between two scans: one standard deviation.
-struct MotionModelOptions {
-  double drive_noise_m_per_m = 0.30;     ///< [0, 1]
-  double slide_noise_m_per_m = 0.30;     ///< Sideways. [0, 1]
-  double turn_noise_rad_per_rad = 0.30;  ///< [0, 1]
-  double turn_noise_rad_per_m = 0.20;    ///< [0, 1]
-  double drive_noise_m = 0.10;           ///< Per scan, even at rest. > 0
-  double turn_noise_rad = 0.02;          ///< Per scan, even at rest. > 0
-  double max_speed_m_per_s = 3.0;        ///< Faster odometry is not believed. > 0
-  double max_turn_rate_rad_per_s = 6.0;  ///< Faster odometry is not believed. > 0
+/// How motion is foretold from one scan to the next, to start matching from. In the configuration
+/// file: the object "lpm.motion".
+struct MotionOptions {
+  MotionLearningOptions learning;
+  bool learns = true;             ///< Odometry is corrected, and believed as far as it has earned.
+  double widening = 25.0;         ///< Variances foretold count as so much larger, [1, 100]
+  double least_sigma_m = 0.05;    ///< and this is added, > 0
+  double least_sigma_rad = 0.02;  ///< and this. > 0
 };
 
 /// Scan matching against the scrolling map.
@@ -39,11 +43,42 @@ struct ScanMatchOptions {
   double search_turn_rad = 0.4;       ///< Half the window of the wide search. [0, 3.2]
 };
 
+/// How scans are matched with the scrolling map. In the configuration file: "correlative" or
+/// "particles".
+enum class MatcherKind : std::uint8_t {
+  kCorrelative,  ///< Least squares, and correlative search where that fails.
+  kParticles,    ///< The papers' particle filter.
+};
+
+/// The name of a kind, as in the configuration file.
+[[nodiscard]] std::string_view to_string(MatcherKind kind);
+/// None for a name that is no kind's.
+[[nodiscard]] std::optional<MatcherKind> matcher_kind_of(std::string_view name);
+
+/// Tuning of the particle filter. In the configuration file: the object "lpm.particles".
+struct ParticleOptions {
+  int least_count = 200;         ///< [20, 100000]
+  int greatest_count = 2'000;    ///< [20, 100000]; below the least count it counts as that.
+  double bin_m = 0.05;           ///< Particles closer than this count as alike, > 0
+  double bin_rad = 0.03;         ///< and this. > 0
+  double kld_error = 0.05;       ///< Of the sampled belief. (0, 1)
+  double kld_quantile = 2.33;    ///< Of the normal distribution: 2.33 for 99 %. [0, 5]
+  double effective_share = 0.5;  ///< Of particles that a tempering step must leave. (0, 1)
+  int max_returns = 120;         ///< Returns weighed per particle. [10, 10000]
+  std::int64_t seed = 1;         ///< Same seed, same scans: same poses, bit for bit.
+};
+
+/// Names every field that is out of range, with its value.
+[[nodiscard]] Status validate(const ParticleOptions& options);
+
 /// The local metrical layer. In the configuration file: the object "lpm".
 struct LpmOptions {
   ScrollingMapOptions map;
-  MotionModelOptions motion;
+  MotionOptions motion;
+  MotionWatchOptions motion_watch;
   ScanMatchOptions match;
+  MatcherKind matcher = MatcherKind::kCorrelative;
+  ParticleOptions particles;        ///< Where `matcher` says so.
   double insert_every_m = 0.2;      ///< The map takes a scan after this travel, [0, 5]
   double insert_every_rad = 0.2;    ///< or after this turn. [0, 3.2]
   double renewal_travel_m = 8.0;    ///< Travel after which the map is another one: per renewal the

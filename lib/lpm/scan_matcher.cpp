@@ -6,6 +6,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "lpm/match_score.hpp"
+#include "lpm/surface_points.hpp"
 #include "lpm/surface_refinement.hpp"
 
 namespace cairn {
@@ -41,20 +43,13 @@ Matrix3d ScanMatch::covariance(double hit_sigma_m) const {
   return 0.5 * (covariance + covariance.transpose());
 }
 
+void UsualScore::learn(double score) {
+  value_ += kUsualShare * (std::max(score, kLeastUsual) - value_);
+}
+
 void ScanMatcher::take(const ScanBeams& beams) {
-  returns_.clear();
   is_prepared_ = false;
-  const double far2_m2 = options_.max_match_range_m * options_.max_match_range_m;
-  const double spacing2_m2 = options_.point_spacing_m * options_.point_spacing_m;
-  Vector2d last = Vector2d::Constant(1e9);
-  for (std::size_t i = 0; i < beams.returns().size(); ++i) {
-    const SurfacePoint& point = beams.returns()[i];
-    if ((point.p - last).squaredNorm() >= spacing2_m2 &&
-        (point.p - beams.origins()[i]).squaredNorm() <= far2_m2) {
-      returns_.push_back(point);
-      last = point.p;
-    }
-  }
+  surface_points_of(beams, options_.point_spacing_m, options_.max_match_range_m, &returns_);
 }
 
 /// Evenly over the scan; near ones if there are enough, since every angle that tells far ones apart
@@ -84,14 +79,14 @@ bool ScanMatcher::is_blocked() const {
 
 ScanMatch ScanMatcher::match(const ScrollingMap& map, const GaussianPose& predicted) {
   ScanMatch match = nearby(map, predicted);
-  const bool is_doubtful = match.score < usual_score_ - kVeryUnusual;
+  const bool is_doubtful = match.score < usual_score_.value() - kVeryUnusual;
   doubts_ = is_doubtful ? doubts_ + 1 : 0;
   // What was looked for in vain is looked for again ever more seldom: the 1st, 2nd, 4th, 8th time.
   if (is_doubtful && (doubts_ & (doubts_ - 1U)) == 0U) {
     match = in_doubt(map, predicted, match);
   }
-  match.usual_score = usual_score_;
-  usual_score_ += kUsualShare * (std::max(match.score, kLeastUsual) - usual_score_);
+  match.usual_score = usual_score_.value();
+  usual_score_.learn(match.score);
   return match;
 }
 
@@ -105,7 +100,7 @@ ScanMatch ScanMatcher::nearby(const ScrollingMap& map, const GaussianPose& predi
   const bool is_certain = std::max(covariance(0, 0), covariance(1, 1)) <= kCertain_m * kCertain_m &&
                           covariance(2, 2) <= kCertain_rad * kCertain_rad;
   const double wanted =
-      is_certain && deviation(match) <= kAgrees ? usual_score_ - kUnusual : kGoodScore;
+      is_certain && deviation(match) <= kAgrees ? usual_score_.value() - kUnusual : kGoodScore;
   if (match.score < wanted) {
     const ScanMatch wider = searched(map, predicted, options_.search_turn_rad);
     if (wider.fit.cost < match.fit.cost) {
@@ -137,7 +132,7 @@ ScanMatch ScanMatcher::in_doubt(const ScrollingMap& map,
   if (slipped.score >= kGoodScore && is_far_better(slipped)) {
     match = slipped;
   }
-  if (match.score < usual_score_ - kVeryUnusual) {
+  if (match.score < usual_score_.value() - kVeryUnusual) {
     // Turned by hand, or while nobody looked. A corridor looks the same both ways: the scan has to
     // be explained nearly whole, and to hold the robot in every direction.
     doubted.covariance(2, 2) = kAnyHeading_rad * kAnyHeading_rad;
@@ -160,7 +155,7 @@ ScanMatch ScanMatcher::refined(const ScrollingMap& map,
   ScanMatch match;
   match.fit = refine_on_surfaces(map, returns_, predicted, start,
                                  {options_.hit_sigma_m, options_.independent_share});
-  judge(map, &match);
+  judge(map, returns_, kOnWall_m, &match);
   return match;
 }
 
@@ -193,22 +188,6 @@ ScanMatch ScanMatcher::searched(const ScrollingMap& map,
   ScanMatch match = refined(map, predicted, search_.find(few_returns_, window).pose);
   match.was_searched = true;
   return match;
-}
-
-void ScanMatcher::judge(const ScrollingMap& map, ScanMatch* match) const {
-  const GridGeometry& geometry = map.grid().geometry();
-  const double on_wall_m = std::max(kOnWall_m, geometry.cell_m);
-  int known = 0;
-  int on_wall = 0;
-  for (const SurfacePoint& point : returns_) {
-    const Cell c = geometry.cell_at(match->fit.T_lpm_robot * point.p);
-    const bool is_on_wall = map.walls().distance_m(c) <= on_wall_m;
-    on_wall += is_on_wall ? 1 : 0;
-    known += is_on_wall || map.grid().state(c) != CellState::kUnknown ? 1 : 0;
-  }
-  match->score = known > 0 ? static_cast<double>(on_wall) / known : 0.0;
-  match->known_share =
-      returns_.empty() ? 0.0 : static_cast<double>(known) / static_cast<double>(returns_.size());
 }
 
 }  // namespace cairn

@@ -23,6 +23,17 @@ struct ScanMatch {
   bool was_searched = false;  ///< The wide search was needed.
 };
 
+/// What scans have scored of late.
+class UsualScore {
+ public:
+  [[nodiscard]] double value() const { return value_; }
+  /// Bad scores do not become usual.
+  void learn(double score);
+
+ private:
+  double value_ = 0.85;
+};
+
 /// Matches scans with the scrolling map, with effort by need: least squares from the prediction
 /// where that is certain and succeeds, a correlative search over the uncertain region otherwise.
 class ScanMatcher {
@@ -44,7 +55,6 @@ class ScanMatcher {
   [[nodiscard]] ScanMatch in_doubt(const ScrollingMap& map,
                                    const GaussianPose& predicted,
                                    const ScanMatch& believed);
-  void judge(const ScrollingMap& map, ScanMatch* match) const;
   [[nodiscard]] ScanMatch refined(const ScrollingMap& map,
                                   const GaussianPose& predicted,
                                   const Pose2& start) const;
@@ -58,9 +68,9 @@ class ScanMatcher {
   std::vector<SurfacePoint> few_returns_;  // for the search
   double reach_m_ = 0.0;                   // of few_returns_
   CorrelativeSearch search_;
-  unsigned doubts_ = 0;        // of the last matches in a row
-  double usual_score_ = 0.85;  // of late
-  bool is_prepared_ = false;   // for the scan taken last, around
+  unsigned doubts_ = 0;  // of the last matches in a row
+  UsualScore usual_score_;
+  bool is_prepared_ = false;  // for the scan taken last, around
   Vector2d prepared_at_m_ = Vector2d::Zero();
 };
 

@@ -1,0 +1,94 @@
+#include "lpm/dead_reckoning.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace cairn {
+namespace {
+
+constexpr double kLeastTimeStep_s = 1.0;  // recorded stamps are not to be trusted below this
+constexpr double kLeastTwistStep_s = 1e-3;
+
+}  // namespace
+
+DeadReckoning::DeadReckoning(const MotionOptions& options, const MotionWatchOptions& watch)
+    : options_(options),
+      limits_(watch),
+      model_(options.learning),
+      velocity_(watch.max_speed_m_per_s, watch.max_turn_rate_rad_per_s),
+      watch_(watch) {}
+
+void DeadReckoning::start(TimePoint time, const std::optional<Pose2>& T_odom_robot) {
+  time_ = time;
+  T_odom_robot_ = T_odom_robot;
+  velocity_.reset();
+  model_.skip();
+  watch_.interrupt();
+}
+
+void DeadReckoning::begin(const JoinedScan& joined) {
+  dt_s_ = seconds_between(time_, joined.scan.time);
+  T_odom_step_.reset();
+  is_possible_ = false;
+  if (T_odom_robot_ && joined.T_odom_robot) {
+    T_odom_step_ = T_odom_robot_->inverse() * *joined.T_odom_robot;
+    const double possible_s = std::max(std::abs(dt_s_), kLeastTimeStep_s);
+    is_possible_ = T_odom_step_->translation().norm() <= limits_.max_speed_m_per_s * possible_s &&
+                   std::abs(T_odom_step_->theta()) <= limits_.max_turn_rate_rad_per_s * possible_s;
+  }
+  time_ = joined.scan.time;
+  T_odom_robot_ = joined.T_odom_robot;
+  note_repeat(joined.scan);
+}
+
+void DeadReckoning::note_repeat(const LaserScan& scan) {
+  const std::size_t bytes = scan.ranges_m.size() * sizeof(float);
+  is_scan_repeated_ = bytes > 0 && scan.ranges_m.size() == ranges_m_.size() &&
+                      std::memcmp(scan.ranges_m.data(), ranges_m_.data(), bytes) == 0;
+  ranges_m_ = scan.ranges_m;
+}
+
+Twist DeadReckoning::twist() const {
+  if (is_possible_ && dt_s_ >= kLeastTwistStep_s && dt_s_ <= kLeastTimeStep_s &&
+      T_odom_step_->translation().norm() <= limits_.max_speed_m_per_s * dt_s_ &&
+      std::abs(T_odom_step_->theta()) <= limits_.max_turn_rate_rad_per_s * dt_s_) {
+    return {T_odom_step_->x() / dt_s_, T_odom_step_->y() / dt_s_, T_odom_step_->theta() / dt_s_};
+  }
+  return {};  // what matches say of the speed must not bend the next scan: it would feed on itself
+}
+
+GaussianPose DeadReckoning::predicted() const {
+  return is_possible_ ? widened(model_.predict(*T_odom_step_)) : continued();
+}
+
+GaussianPose DeadReckoning::widened(GaussianPose motion) const {
+  motion.covariance *= options_.widening;
+  motion.covariance.diagonal() +=
+      Eigen::Vector3d(options_.least_sigma_m, options_.least_sigma_m, options_.least_sigma_rad)
+          .cwiseAbs2();
+  return motion;
+}
+
+MotionFault DeadReckoning::end(const std::optional<GaussianPose>& matched) {
+  if (matched) {
+    velocity_.learn(matched->mean, dt_s_);
+  } else {
+    velocity_.reset();
+  }
+  if (!matched || !T_odom_step_) {
+    model_.skip();
+    watch_.interrupt();
+    return has_jumped() ? MotionFault::kTeleport : MotionFault::kNone;
+  }
+  const MotionFault fault = watch_.judge(
+      {dt_s_, *T_odom_step_, model_.predict(*T_odom_step_), *matched, is_scan_repeated_});
+  if (fault == MotionFault::kNone && options_.learns) {
+    model_.learn(*T_odom_step_, *matched);
+  } else {
+    model_.skip();
+  }
+  return fault;
+}
+
+}  // namespace cairn

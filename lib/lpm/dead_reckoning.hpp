@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lpm/constant_velocity.hpp"
+#include "lpm/lpm_options.hpp"
+#include "lpm/motion_model.hpp"
+#include "lpm/motion_watch.hpp"
+#include "lpm/scan_beams.hpp"
+#include "sensing/scan_joiner.hpp"
+
+namespace cairn {
+
+/// What is known of the robot's motion from one scan to the next before they are matched: from
+/// odometry, as far as it has earned belief, else from going on as before. Learns from the matches.
+///
+/// For every scan after the first, in turn: begin(), predicted() and continued(), end().
+class DeadReckoning {
+ public:
+  /// @pre both options are within their ranges
+  DeadReckoning(const MotionOptions& options, const MotionWatchOptions& watch);
+
+  /// The robot is where the scan was taken; steps begin there.
+  void start(TimePoint time, const std::optional<Pose2>& T_odom_robot);
+
+  /// Takes the next scan.
+  void begin(const JoinedScan& joined);
+  /// How the robot moves during the scan; unmoved where odometry does not say.
+  [[nodiscard]] Twist twist() const;
+  /// The step to the scan, wide enough to match from. The covariance is positive definite.
+  [[nodiscard]] GaussianPose predicted() const;
+  /// The same without odometry, which may have stalled: the robot goes on as it went.
+  [[nodiscard]] GaussianPose continued() const { return widened(velocity_.predict(dt_s_)); }
+  /// Odometry jumped farther than the robot can drive.
+  [[nodiscard]] bool has_jumped() const { return T_odom_step_ && !is_possible_; }
+  [[nodiscard]] double dt_s() const { return dt_s_; }
+
+  /// Ends the step.
+  /// @param matched the step by scan matching, with the covariance of the returns alone; none where
+  ///        the scan was not matched
+  /// @return why odometry and scan disagree, where they do
+  MotionFault end(const std::optional<GaussianPose>& matched);
+
+ private:
+  [[nodiscard]] GaussianPose widened(GaussianPose motion) const;
+  void note_repeat(const LaserScan& scan);
+
+  MotionOptions options_;
+  MotionWatchOptions limits_;
+  MotionModel model_;
+  ConstantVelocity velocity_;
+  MotionWatch watch_;
+  TimePoint time_;
+  std::optional<Pose2> T_odom_robot_;
+  // Of the step under way.
+  double dt_s_ = 0.0;
+  std::optional<Pose2> T_odom_step_;
+  bool is_possible_ = false;
+  bool is_scan_repeated_ = false;
+  std::vector<float> ranges_m_;  // of the scan taken last
+};
+
+}  // namespace cairn

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <cstdint>
+#include <queue>
+#include <vector>
+
+#include "base/result.hpp"
+#include "geometry/gaussian_pose.hpp"
+#include "grid/occupancy_grid.hpp"
+#include "lpm/distance_field.hpp"
+#include "lpm/max_pyramid.hpp"
+#include "lpm/scan_refinement.hpp"
+
+namespace cairn {
+
+/// How a whole map is searched for a scan. In the configuration file: the object
+/// "lpm.global_search".
+struct GlobalSearchOptions {
+  double hit_sigma_m = 0.15;  ///< Spread of a return around the wall, rasters included. > 0
+  double max_range_m = 15.0;  ///< Farther returns are not looked at. > 0
+  int max_returns = 80;       ///< Returns looked at, spread evenly. [3, 10000]
+  double free_weight = 1.0;   ///< Of the way to a return being free, against the return. [0, 10]
+  double robot_clearance_m = 0.2;  ///< The robot is no farther than this from a free cell. >= 0
+  double neighbour_m = 1.0;        ///< Poses closer than this to a better one are the same, > 0
+  double neighbour_rad = 0.4;      ///< and this. > 0
+  double independent_share = 0.2;  ///< Share of the returns that count as independent. (0, 1]
+};
+
+/// Names every field that is out of range, with its value.
+[[nodiscard]] Status validate(const GlobalSearchOptions& options);
+
+/// Where in a whole map a scan fits.
+struct GlobalMatch {
+  /// Refined between the cells of the raster; the covariance is positive definite, and long along a
+  /// corridor.
+  GaussianPose T_map_robot;
+  Pose2 raster_pose;   ///< In the middle of a cell, at an angle of the raster.
+  double score = 0.0;  ///< Of the raster pose: mean of the returns and of the ways to them, [0, 1].
+};
+
+/// The poses to search.
+struct GlobalWindow {
+  Pose2 center;           ///< T_map_robot
+  double range_m = 1e9;   ///< Half the side, >= 0; beyond the map: all of it.
+  double turn_rad = 4.0;  ///< Half the angle, >= 0; from pi on: all angles.
+};
+
+/// Finds a robot in a known map, the stored LPM of a place or a global map, by a scan and with
+/// little prior knowledge or none: the pose of the highest mean likelihood of the returns, among
+/// all cells near free space and all angles. Exact on its raster of one cell by the angle that
+/// moves the farthest return by one cell.
+///
+/// Best first, with bounds by max-pyramids: no pose in a block of cells is better than if every
+/// return, and every point on the ways, met the best that it can meet within the block.
+///
+/// Source: Hess et al., "Real-time loop closure in 2D lidar SLAM", ICRA 2016, Sec. V; Modayil et
+/// al., IROS 2004, Sec. IV-B (relocalization in the stored map of a place).
+/// Memory: 22 bytes per cell.
+class GlobalSearch {
+ public:
+  /// Takes a copy of all that it needs of the map.
+  /// @pre validate(options).ok()
+  explicit GlobalSearch(const OccupancyGrid& map, const GlobalSearchOptions& options = {});
+
+  /// The best poses, best first: each the best of all that are no neighbours of those before it.
+  /// At most `count`; none where there are no points, or no free cell in the window. How much the
+  /// first is better than the second is how far it is to be trusted.
+  /// @param points in the robot frame, in the order of the beams
+  [[nodiscard]] std::vector<GlobalMatch> find(const std::vector<SurfacePoint>& points,
+                                              int count,
+                                              const GlobalWindow& window = {}) const;
+
+  [[nodiscard]] const GridGeometry& geometry() const { return walls_.geometry(); }
+
+ private:
+  /// A scan turned by one angle.
+  struct Turned {
+    double theta_rad = 0.0;
+    CellOffsets returns;
+    CellOffsets ways;  // points before the returns
+  };
+  /// A square of 2^level cells a side, at one angle.
+  struct Block {
+    double score = 0.0;  // of the best pose that there may be in it
+    std::int32_t level = 0;
+    std::int32_t turned = 0;
+    Cell low;
+  };
+  struct Box {
+    Cell low;
+    Cell high;  // included
+  };
+  struct IsWorse {
+    bool operator()(const Block& a, const Block& b) const;
+  };
+  using Open = std::priority_queue<Block, std::vector<Block>, IsWorse>;
+
+  void take(const OccupancyGrid& map);
+  void allow_around(Cell free_cell, std::vector<std::uint8_t>* allowed) const;
+  [[nodiscard]] Box box_of(const GlobalWindow& window) const;
+  [[nodiscard]] std::vector<Turned> turned(const std::vector<SurfacePoint>& points,
+                                           const GlobalWindow& window) const;
+  [[nodiscard]] double bound_of(const Block& block, const Turned& turned) const;
+  [[nodiscard]] std::vector<SurfacePoint> chosen(const std::vector<SurfacePoint>& points) const;
+  void push(Block block, const Box& box, const Turned& turned, Open* open) const;
+  [[nodiscard]] Open opened(const Box& box, const std::vector<Turned>& all) const;
+  [[nodiscard]] bool is_neighbour(const Pose2& a, const Pose2& b) const;
+  [[nodiscard]] GlobalMatch refined(const std::vector<SurfacePoint>& points,
+                                    const Pose2& pose,
+                                    double score) const;
+
+  GlobalSearchOptions options_;
+  DistanceField walls_;
+  MaxPyramid likelihood_;  // of a return
+  MaxPyramid freeness_;
+  MaxPyramid allowed_;  // where the robot fits
+};
+
+}  // namespace cairn

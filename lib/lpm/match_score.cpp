@@ -1,0 +1,26 @@
+#include "lpm/match_score.hpp"
+
+#include <algorithm>
+
+namespace cairn {
+
+void judge(const ScrollingMap& map,
+           const std::vector<SurfacePoint>& returns,
+           double on_wall_m,
+           ScanMatch* match) {
+  const GridGeometry& geometry = map.grid().geometry();
+  const double near_m = std::max(on_wall_m, geometry.cell_m);
+  int known = 0;
+  int on_wall = 0;
+  for (const SurfacePoint& point : returns) {
+    const Cell c = geometry.cell_at(match->fit.T_lpm_robot * point.p);
+    const bool is_on_wall = map.walls().distance_m(c) <= near_m;
+    on_wall += is_on_wall ? 1 : 0;
+    known += is_on_wall || map.grid().state(c) != CellState::kUnknown ? 1 : 0;
+  }
+  match->score = known > 0 ? static_cast<double>(on_wall) / known : 0.0;
+  match->known_share =
+      returns.empty() ? 0.0 : static_cast<double>(known) / static_cast<double>(returns.size());
+}
+
+}  // namespace cairn
