@@ -119,6 +119,9 @@ void print(const std::vector<Mode>& modes, std::ostream& out) {
 NoiseExperiment experiment_of(const NoiseRequest& request) {
   NoiseExperiment experiment = request.experiment;
   experiment.topology.noisy_stars = true;
+  if (Status status = validate(experiment.noise); !status.ok()) {
+    throw Failure(ExitCode::kUsage, status.error().message);
+  }
   experiment.match.reset();
   if (request.match != "none") {
     MatchModel model;

@@ -232,22 +232,26 @@ double HypothesisTree::most_likely(const Leaf& waiting) const {
              : waiting.log_posterior() - log_bound_[waiting.visit.index()];
 }
 
+/// The bound holds for whatever the maps given up might have come to by now.
 void HypothesisTree::give_up(std::vector<Leaf> leaves, ExtendReport& report) {
   double bound = -std::numeric_limits<double>::infinity();
-  std::int64_t dropped = 0;
   for (const Leaf& leaf : leaves) {
-    bound = std::max(bound, leaf.log_posterior());
+    bound = std::max(bound, most_likely(leaf) + log_bound_.back());
     log_given_up_ = std::max(log_given_up_, most_likely(leaf));
-    dropped += leaf.count();
+    report.dropped += leaf.count();
     engine_->nodes.release(leaf.node);
   }
-  report.dropped += dropped;
-  if (!report.guarantee_given_up && !leaves.empty()) {
-    report.guarantee_given_up = GuaranteeGivenUp{
-        report.visit, GuaranteeLoss::kBudget, bound,
-        std::to_string(dropped) + " hypotheses, at most e^" + std::to_string(bound) +
-            " likely, were given up: max_bytes is " + std::to_string(engine_->options.max_bytes)};
+  std::optional<GuaranteeGivenUp>& given_up = report.guarantee_given_up;
+  if (leaves.empty() || (given_up && given_up->loss != GuaranteeLoss::kBudget)) {
+    return;
   }
+  if (given_up) {
+    bound = std::max(bound, given_up->log_posterior_bound);
+  }
+  given_up = GuaranteeGivenUp{report.visit, GuaranteeLoss::kBudget, bound,
+                              std::to_string(report.dropped) + " hypotheses, at most e^" +
+                                  std::to_string(bound) + " likely, were given up: max_bytes is " +
+                                  std::to_string(engine_->options.max_bytes)};
 }
 
 }  // namespace cairn

@@ -139,8 +139,8 @@ ExtendReport HypothesisTree::absorb_next(const Deadline& is_time_up) {
   Engine& engine = *engine_;
   ExtendReport report;
   report.visit = VisitId{static_cast<std::int32_t>(baseline_log_posterior_.size())};
-  const auto refuted_before = engine.successors.refuted();
-  const std::int64_t contradicted_before = engine.successors.links_contradicted();
+  auto refuted_before = engine.successors.refuted();
+  std::int64_t contradicted_before = engine.successors.links_contradicted();
   candidates_.clear();
   siblings_.clear();
   amendments_.clear();
@@ -148,12 +148,17 @@ ExtendReport HypothesisTree::absorb_next(const Deadline& is_time_up) {
   if (const double surprise = surprise_of_best();
       engine.options.noisy_stars && surprise > engine.options.log_penalty_break) {
     engine.successors.allow_rejoining(report.visit);
+    refuted_before = engine.successors.refuted();
+    contradicted_before = engine.successors.links_contradicted();
     report = ExtendReport();
     report.visit = VisitId{static_cast<std::int32_t>(baseline_log_posterior_.size())};
     candidates_.clear();
     siblings_.clear();
     amendments_.clear();
     expand_live(is_time_up, report);
+  }
+  for (const Leaf& leaf : not_looked_at_) {
+    defer(leaf, report);
   }
   if (candidates_.empty()) {
     repair(report);
@@ -196,6 +201,7 @@ double HypothesisTree::most_gained_at(VisitId visit) const {
 }
 
 void HypothesisTree::expand_live(const Deadline& is_time_up, ExtendReport& report) {
+  not_looked_at_.clear();
   std::vector<std::size_t> order(live_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   if (is_time_up) {  // Then the best come first, not those that lie together.
@@ -206,7 +212,7 @@ void HypothesisTree::expand_live(const Deadline& is_time_up, ExtendReport& repor
   for (const std::size_t index : order) {
     // The first one is always looked at, so that time alone cannot refute all.
     if (is_time_up && index != order.front() && is_time_up()) {
-      defer(live_[index], report);
+      not_looked_at_.push_back(live_[index]);
     } else {
       expand(live_[index], report);
     }

@@ -294,6 +294,7 @@ class HypothesisTree {
 
   std::vector<Candidate> candidates_;  // Of the arrival at hand.
   std::vector<Siblings> siblings_;     // They follow each other in the candidates.
+  std::vector<Leaf> not_looked_at_;    // Of the arrival at hand, for want of time.
   std::vector<MapChange> amendments_;
   std::vector<NodeIndex> searched_;        // On which candidates stand that repair found.
   std::vector<Alternative> alternatives_;  // Reused.

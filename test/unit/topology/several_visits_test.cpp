@@ -122,5 +122,28 @@ TEST(Waiting, AHypothesisFarBelowTheBestComesBackWhenEvidenceNamesWhatTheBestOne
   EXPECT_FALSE(robot.tree().guarantee_given_up());
 }
 
+TEST(Waiting, WhatIsNotLookedAtForWantOfTimeWaitsOnce) {
+  // A surprise at the last visit makes the tree look at everyone again.
+  Evidence evidence;
+  evidence.same_place = [](SeenGateway known, SeenGateway now) {
+    return known.visit.value == 1 && now.visit.value == 4 ? 20.0 : -1.0;
+  };
+  TopologyOptions options;
+  options.noisy_stars = true;
+  options.log_penalty_break = 1.0;
+  HypothesisTree tree(options, evidence);
+  ASSERT_TRUE(tree.start({corner(), 0, VisitId{0}}).ok());
+  ASSERT_TRUE(tree.extend({0}, {corner(), 1, VisitId{1}}).ok());
+  ASSERT_TRUE(tree.extend({1}, {corner(), 1, VisitId{2}}).ok());
+  ASSERT_TRUE(tree.extend({1}, {corner(), 1, VisitId{3}}).ok());
+  const std::int64_t live = tree.live_count();
+  const std::int64_t waiting = tree.waiting_count();
+  ASSERT_GT(live, 1);
+  const auto report = tree.extend({1}, {corner(), 1, VisitId{4}}, [] { return true; });
+  ASSERT_TRUE(report);
+  // One is looked at; its successors live or wait.
+  EXPECT_EQ(report->leaves + report->waiting, report->nodes_added() + live - 1 + waiting);
+}
+
 }  // namespace
 }  // namespace cairn::test
