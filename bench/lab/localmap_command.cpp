@@ -27,23 +27,6 @@ using clients::Failure;
 using clients::fixed;
 using OrderedJson = nlohmann::ordered_json;
 
-DaemonOptions options_of(const std::string& config_file) {
-  if (config_file.empty()) {
-    return {};
-  }
-  const std::ifstream file(config_file);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) {
-    throw Failure(ExitCode::kBadData, config_file + ": cannot be read");
-  }
-  const Result<DaemonOptions> options = read_options(text.str());
-  if (!options) {
-    throw Failure(ExitCode::kBadData, config_file + ": " + options.error().message);
-  }
-  return *options;
-}
-
 std::array<std::pair<const char*, const StageTimes*>, 4> stages_of(const LocalmapRun& run) {
   return {{{"matching", &run.matching},
            {"insertion", &run.insertion},
@@ -132,7 +115,7 @@ std::string trajectory_of(const LocalmapRun& run) {
 }
 
 int track(const LocalmapRequest& request, const Streams& streams) {
-  DaemonOptions options = options_of(request.config_file);
+  DaemonOptions options = options_from_file(request.config_file);
   if (!request.matcher.empty()) {
     const std::optional<MatcherKind> kind = matcher_kind_of(request.matcher);
     if (!kind) {

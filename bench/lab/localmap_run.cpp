@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <numeric>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -161,6 +163,23 @@ double StageTimes::quantile_ms(double share) const {
   std::vector<double> sorted = times_ms;
   std::sort(sorted.begin(), sorted.end());
   return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
+
+DaemonOptions options_from_file(const std::string& config_file) {
+  if (config_file.empty()) {
+    return {};
+  }
+  const std::ifstream file(config_file);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) {
+    throw Failure(ExitCode::kBadData, config_file + ": cannot be read");
+  }
+  const Result<DaemonOptions> options = read_options(text.str());
+  if (!options) {
+    throw Failure(ExitCode::kBadData, config_file + ": " + options.error().message);
+  }
+  return *options;
 }
 
 LocalmapRun run_localmap(const std::string& log, const DaemonOptions& options) {

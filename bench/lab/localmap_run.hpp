@@ -50,6 +50,9 @@ struct LocalmapRun {
   [[nodiscard]] double travel_m() const { return track.empty() ? 0.0 : track.back().travel_m; }
 };
 
+/// The daemon's options: the defaults where no file is named. Throws clients::Failure(kBadData).
+[[nodiscard]] DaemonOptions options_from_file(const std::string& config_file);
+
 /// Runs joiner and local mapper over a log, nothing else. Throws clients::Failure(kBadData) where
 /// there is no log, or no scan in it.
 [[nodiscard]] LocalmapRun run_localmap(const std::string& log, const DaemonOptions& options);

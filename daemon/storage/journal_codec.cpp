@@ -19,6 +19,7 @@ inline constexpr std::string_view kSignatureText<cairn_journal::scan_record_t> =
 template <>
 inline constexpr std::string_view kSignatureText<cairn_journal::visit_record_t> =
     "q q q d[=3] i i d[=3] d[=3] d[=2] i d d i {d[=4] d[=2] d d d}[12] i {i i i}[14] i {i i i}[16] "
+    "i {i {i i i}[0] i i[2] d}[18] i {{d[=4] d[=2] d d d} d i}[20] "
     "{d d[=2] i i i h[4]}";
 
 }  // namespace cairn::wire
@@ -137,6 +138,59 @@ Result<OccupancyGrid> grid_of(const cairn_journal::grid_record_t& record) {
   return grid;
 }
 
+std::vector<cairn_journal::slot_record_t> to_records(const Star& star) {
+  std::vector<cairn_journal::slot_record_t> records;
+  for (const StarSlot& slot : star.slots) {
+    cairn_journal::slot_record_t one{};
+    one.gateway = slot.gateway;
+    one.partner = static_cast<int>(slot.partner);
+    one.law = static_cast<int>(slot.law);
+    records.push_back(one);
+  }
+  return records;
+}
+
+Result<Star> star_of(const std::vector<cairn_journal::slot_record_t>& records, int gateways) {
+  const int count = static_cast<int>(records.size());
+  Star star;
+  for (const cairn_journal::slot_record_t& slot : records) {
+    const bool is_sound = slot.partner >= 0 && slot.partner < count && slot.gateway >= -1 &&
+                          slot.gateway < gateways && slot.law >= 0 &&
+                          slot.law <= static_cast<int>(ControlLaw::kNone);
+    if (!is_sound) {
+      return malformed("a star that names a missing gateway or slot");
+    }
+    star.slots.push_back(
+        {slot.gateway, static_cast<std::size_t>(slot.partner), static_cast<ControlLaw>(slot.law)});
+  }
+  if (const Status status = validate(star); !status) {
+    return malformed(status.error().message);
+  }
+  if (gateway_count(star) != gateways) {
+    return malformed("a star whose gateways are not those of the visit");
+  }
+  return star;
+}
+
+cairn_journal::reading_record_t to_record(const StarReading& reading) {
+  cairn_journal::reading_record_t record{};
+  record.slots = to_records(reading.star);
+  record.num_slots = static_cast<int>(record.slots.size());
+  record.gateways.assign(reading.gateways.begin(), reading.gateways.end());
+  record.num_gateways = static_cast<int>(record.gateways.size());
+  record.log_likelihood = reading.log_likelihood;
+  return record;
+}
+
+Result<StarReading> reading_of(const cairn_journal::reading_record_t& record) {
+  Result<Star> star = star_of(record.slots, record.num_gateways);
+  if (!star) {
+    return star.error();
+  }
+  return StarReading{
+      *std::move(star), {record.gateways.begin(), record.gateways.end()}, record.log_likelihood};
+}
+
 void put(const PlaceNeighbourhood& neighbourhood, cairn_journal::visit_record_t* record) {
   put(neighbourhood.center, record->center_m);
   record->is_complete = neighbourhood.is_complete ? 1 : 0;
@@ -154,14 +208,20 @@ void put(const PlaceNeighbourhood& neighbourhood, cairn_journal::visit_record_t*
     record->fragments.push_back(one);
   }
   record->num_fragments = static_cast<int>(record->fragments.size());
-  for (const StarSlot& slot : neighbourhood.star.slots) {
-    cairn_journal::slot_record_t one{};
-    one.gateway = slot.gateway;
-    one.partner = static_cast<int>(slot.partner);
-    one.law = static_cast<int>(slot.law);
-    record->slots.push_back(one);
-  }
+  record->slots = to_records(neighbourhood.star);
   record->num_slots = static_cast<int>(record->slots.size());
+  for (const StarReading& reading : neighbourhood.others) {
+    record->readings.push_back(to_record(reading));
+  }
+  record->num_readings = static_cast<int>(record->readings.size());
+  for (const UnsureGateway& unsure : neighbourhood.unsure) {
+    cairn_journal::unsure_gateway_record_t one{};
+    one.gateway = to_record(unsure.gateway);
+    one.log_odds = unsure.log_odds;
+    one.is_doorway = unsure.is_doorway ? 1 : 0;
+    record->unsure.push_back(one);
+  }
+  record->num_unsure = static_cast<int>(record->unsure.size());
 }
 
 Result<PlaceNeighbourhood> neighbourhood_of(const cairn_journal::visit_record_t& record) {
@@ -177,21 +237,21 @@ Result<PlaceNeighbourhood> neighbourhood_of(const cairn_journal::visit_record_t&
     neighbourhood.fragments.push_back(
         {fragment.gateway, fragment.through, fragment.is_dead_end != 0});
   }
-  for (const cairn_journal::slot_record_t& slot : record.slots) {
-    const bool is_sound = slot.partner >= 0 && slot.partner < record.num_slots &&
-                          slot.gateway >= -1 && slot.gateway < record.num_gateways &&
-                          slot.law >= 0 && slot.law <= static_cast<int>(ControlLaw::kNone);
-    if (!is_sound) {
-      return malformed("a star that names a missing gateway or slot");
+  Result<Star> star = star_of(record.slots, record.num_gateways);
+  if (!star) {
+    return star.error();
+  }
+  neighbourhood.star = *std::move(star);
+  for (const cairn_journal::reading_record_t& reading : record.readings) {
+    Result<StarReading> one = reading_of(reading);
+    if (!one) {
+      return one.error();
     }
-    neighbourhood.star.slots.push_back(
-        {slot.gateway, static_cast<std::size_t>(slot.partner), static_cast<ControlLaw>(slot.law)});
+    neighbourhood.others.push_back(*std::move(one));
   }
-  if (const Status status = validate(neighbourhood.star); !status) {
-    return malformed(status.error().message);
-  }
-  if (gateway_count(neighbourhood.star) != record.num_gateways) {
-    return malformed("a star whose gateways are not those of the visit");
+  for (const cairn_journal::unsure_gateway_record_t& unsure : record.unsure) {
+    neighbourhood.unsure.push_back(
+        {gateway_of(unsure.gateway), unsure.log_odds, unsure.is_doorway != 0});
   }
   return neighbourhood;
 }

@@ -44,8 +44,12 @@ OptionObject describe(PlaceOptions* place) {
               "Two gateways less out of line are no place.")
       .number("min_gateway_separation_rad", &place->min_gateway_separation_rad, {0, 3.1},
               "Gateways closer in bearing are one.")
-      .number("seen_beyond_m", &place->seen_beyond_m, {0.1, 20},
-              "Free passage that makes an opening a gateway.")
+      .number("doorway_below_m", &place->doorway_below_m, {0, 20},
+              "Narrower openings are doorways, and make no place until driven through.")
+      .number("passage_depth_m", &place->passage_depth_m, {0.1, 20},
+              "Way seen along walls that makes an opening a gateway.")
+      .number("driven_memory_m", &place->driven_memory_m, {0.1, 1000},
+              "Travel for which it is remembered where the robot has gone through.")
       .number("midline_below_m", &place->midline_below_m, {0.1, 100},
               "Wider passages are followed by a wall.")
       .number("min_distinctiveness", &place->min_distinctiveness, {0, 1},

@@ -1,6 +1,13 @@
 #include "place/gateway.hpp"
 
 namespace cairn {
+namespace {
+
+/// Gateways of two readings are the same one within these.
+constexpr double kSameGateway_m = 1.0;
+constexpr double kSameGateway_rad = 0.6;
+
+}  // namespace
 
 Gateway transformed(const Pose2& T_to_from, const Gateway& gateway) {
   Gateway result = gateway;
@@ -34,6 +41,11 @@ int crossing(const Gateway& gateway, const Vector2d& a, const Vector2d& b, doubl
     return 0;
   }
   return from < 0.0 ? 1 : -1;
+}
+
+bool is_same_gateway(const Gateway& a, const Gateway& b) {
+  return (a.middle - b.middle).norm() < kSameGateway_m &&
+         std::abs(turn_between(a.outward_bearing_rad, b.outward_bearing_rad)) < kSameGateway_rad;
 }
 
 }  // namespace cairn

@@ -17,7 +17,7 @@ struct Gateway {
   Vector2d middle = Vector2d::Zero();  ///< The point of the axis; not always halfway.
   double width_m = 0.0;                ///< Length of the line.
   double outward_bearing_rad = 0.0;  ///< Direction of the axis beyond it, counterclockwise from +x.
-  double seen_beyond_m = 0.0;        ///< Free passage known beyond the line, along the axis.
+  double seen_beyond_m = 0.0;        ///< Way along walls known beyond the line, along the axis.
 
   [[nodiscard]] Vector2d outward() const {
     return {std::cos(outward_bearing_rad), std::sin(outward_bearing_rad)};
@@ -36,5 +36,8 @@ struct Gateway {
 
 /// How far a point lies beyond the line, along its outward direction; negative inside.
 [[nodiscard]] double distance_beyond_m(const Gateway& gateway, const Vector2d& p);
+
+/// Whether two readings of gateways, in one frame, are about the same one.
+[[nodiscard]] bool is_same_gateway(const Gateway& a, const Gateway& b);
 
 }  // namespace cairn

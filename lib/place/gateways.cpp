@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
 
 #include "grid/axis_graph.hpp"
 #include "grid/critical_points.hpp"
@@ -14,6 +16,17 @@ namespace {
 constexpr double kRefine_m = 0.4;
 /// The direction of a way is taken over this stretch beyond the gateway.
 constexpr double kDirection_m = 1.5;
+/// A passage is looked along for so many of the depths that make it one.
+constexpr double kDepthsLooked = 2.0;
+/// A passage is so many times as deep as wide.
+constexpr double kDepthPerWidth = 1.5;
+/// Of the depth of a passage of which there is no doubt, as much was seen between walls.
+constexpr double kPlainShare = 0.7;
+/// A gateway stays one as long as so much of the depth that makes one is seen.
+constexpr double kEnoughToStay = 0.7;
+constexpr double kSure = std::numeric_limits<double>::infinity();
+/// What is less likely to be a passage counts as closed.
+constexpr double kLeastLogOdds = -2.5;
 
 /// Where the way has come by some travel from a position on, or its end.
 std::size_t position_after(
@@ -41,23 +54,6 @@ std::size_t narrowest_between(const MedialAxis& axis,
     }
   }
   return best;
-}
-
-/// Known passage from a position on. Only stretches that walls bound count: what a few beams show
-/// through a door or a window is bounded by unknown space, and might be no passage at all.
-double seen_beyond_m(const LocalView& view, AxisWay way, std::size_t position) {
-  const double cell_m = view.grid.geometry().cell_m;
-  const AxisEdge& edge = view.axis.edges[way.edge];
-  double seen_m = 0.0;
-  for (std::size_t i = position; i + 1 < edge.cells.size(); ++i) {
-    const std::size_t index = index_on_edge(view.axis, way, i);
-    if (is_along_wall(view, way, i)) {
-      seen_m += length_m(edge, index, index_on_edge(view.axis, way, i + 1), cell_m);
-    }
-  }
-  const AxisNode& end = view.axis.nodes[way.forward ? edge.to : edge.from];
-  const bool is_bounded = end.end == AxisEnd::kMeets || end.end == AxisEnd::kBlocked;
-  return seen_m + (is_bounded ? end.clearance_m : 0.0);
 }
 
 double bearing_beyond(const LocalView& view,
@@ -93,11 +89,54 @@ std::optional<Gateway> gateway_at(const LocalView& view, AxisWay way, std::size_
   return gateway;
 }
 
-/// Whether both ends of a line lie on walls. The narrow end of a wedge of known space does not.
+/// Whether there is a wall within some distance of a point.
+bool is_near_wall(const LocalView& view, const Vector2d& p, double within_m) {
+  const GridGeometry& geometry = view.grid.geometry();
+  const Cell center = geometry.cell_at(p);
+  const int reach = static_cast<int>(std::ceil(within_m / geometry.cell_m));
+  for (int dy = -reach; dy <= reach; ++dy) {
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const bool is_within = std::hypot(dx, dy) * geometry.cell_m <= within_m;
+      if (is_within && view.is_wall_at({center.x + dx, center.y + dy})) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Whether both ends of a line lie on walls, or just behind their corners. The narrow end of a
+/// wedge of known space does not.
 bool is_between_two_walls(const LocalView& view, const Gateway& line) {
-  return std::all_of(line.basis_points.begin(), line.basis_points.end(), [&](const Vector2d& p) {
-    return view.is_wall_at(view.grid.geometry().cell_at(p));
-  });
+  constexpr double kBehindCorner_m = 0.6;
+  return std::all_of(line.basis_points.begin(), line.basis_points.end(),
+                     [&](const Vector2d& p) { return is_near_wall(view, p, kBehindCorner_m); });
+}
+
+/// Of the way along walls that makes an opening so wide a passage.
+double depth_of(double width_m, const PlaceOptions& options) {
+  return std::max(options.passage_depth_m, kDepthPerWidth * width_m);
+}
+
+/// Whether there is no doubt that a passage is one: it was seen to its end, or far enough, for most
+/// of it on both sides.
+bool is_plain(const Passage& passage, double enough_m) {
+  return passage.goes_beyond_map || passage.to_end_m >= 0.5 * enough_m ||
+         (passage.along_wall_m >= enough_m && passage.between_walls_m >= kPlainShare * enough_m);
+}
+
+/// The farther walls were seen along it, the likelier an opening is a passage; a doorway may as
+/// well lead into a closet.
+double log_odds_of_passage(const Passage& passage,
+                           double width_m,
+                           bool is_doorway,
+                           const PlaceOptions& options) {
+  constexpr double kPerMetre = 2.0;
+  constexpr double kLessForDoorway = 2.0;
+  const double enough_m = depth_of(width_m, options);
+  constexpr double kMost = 2.0;
+  return std::clamp(kPerMetre * (passage.along_wall_m - enough_m), -kMost, kMost) -
+         (is_doorway ? kLessForDoorway : 0.0);
 }
 
 double bearing_from(const Vector2d& center, const Gateway& gateway) {
@@ -107,7 +146,11 @@ double bearing_from(const Vector2d& center, const Gateway& gateway) {
 
 }  // namespace
 
-WayOut way_out(const LocalView& view, AxisWay way, const PlaceOptions& options) {
+WayOut way_out(const LocalView& view,
+               const WalledLengths& walled,
+               const AxisSite& site,
+               AxisWay way,
+               const PlaceOptions& options) {
   const double cell_m = view.grid.geometry().cell_m;
   const AxisEdge& edge = view.axis.edges[way.edge];
   const AxisEnd end = view.axis.nodes[way.forward ? edge.to : edge.from].end;
@@ -123,43 +166,70 @@ WayOut way_out(const LocalView& view, AxisWay way, const PlaceOptions& options) 
   if (!line) {
     return out;
   }
-  line->seen_beyond_m = seen_beyond_m(view, way, position);
-  const bool is_narrow = line->width_m < options.doorway_below_m;
-  if (line->seen_beyond_m >= (is_narrow ? options.doorway_depth_m : options.seen_beyond_m)) {
+  const Passage passage =
+      passage_beyond(view, walled, site, way, position, kDepthsLooked * options.passage_depth_m);
+  line->seen_beyond_m = passage.along_wall_m;
+  const bool is_walled = is_between_two_walls(view, *line);
+  const bool was_gateway =
+      std::any_of(view.memory.gateways.begin(), view.memory.gateways.end(),
+                  [&](const Gateway& known) { return is_same_gateway(known, *line); });
+  const double enough = was_gateway ? kEnoughToStay : 1.0;
+  const bool is_plain_way = is_plain(passage, enough * depth_of(line->width_m, options));
+  const bool is_doorway = line->width_m < options.doorway_below_m;
+  if ((is_walled && !is_doorway && is_plain_way) ||
+      is_driven_through(*line, view.memory.robot_way)) {
     out.gateway = line;
     out.is_undecided = false;
-  } else if (is_narrow && is_between_two_walls(view, *line)) {
-    out.closed = line;
+  } else if (is_walled) {
     out.is_undecided = false;
+    const double log_odds = log_odds_of_passage(passage, line->width_m, is_doorway, options);
+    if (log_odds < kLeastLogOdds) {
+      out.closed = line;
+    } else {
+      out.unsure = {*line, log_odds, is_doorway};
+    }
   }
   return out;
 }
 
 SiteBounds bounds_of(const LocalView& view,
+                     const WalledLengths& walled,
                      const AxisSite& site,
                      const Vector2d& center,
                      const PlaceOptions& options) {
   SiteBounds bounds;
-  std::vector<Gateway> found;
+  std::vector<UnsureGateway> found;
   for (const AxisWay& way : site.ways) {
-    const WayOut out = way_out(view, way, options);
+    const WayOut out = way_out(view, walled, site, way, options);
     bounds.is_decided = bounds.is_decided && !out.is_undecided;
     if (out.gateway) {
-      found.push_back(*out.gateway);
-    }
-    if (out.closed) {
+      found.push_back({*out.gateway, kSure, false});
+    } else if (out.unsure) {
+      found.push_back(*out.unsure);
+    } else if (out.closed) {
       bounds.closed.push_back(*out.closed);
     }
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Gateway& a, const Gateway& b) { return a.width_m > b.width_m; });
-  for (const Gateway& gateway : found) {
-    const bool is_separate =
-        std::none_of(bounds.gateways.begin(), bounds.gateways.end(), [&](const Gateway& g) {
-          return std::abs(turn_between(bearing_from(center, g), bearing_from(center, gateway))) <
-                 options.min_gateway_separation_rad;
-        });
-    (is_separate ? bounds.gateways : bounds.closed).push_back(gateway);
+  std::stable_sort(found.begin(), found.end(), [](const UnsureGateway& a, const UnsureGateway& b) {
+    return std::tuple(a.log_odds == kSure, a.gateway.width_m) >
+           std::tuple(b.log_odds == kSure, b.gateway.width_m);
+  });
+  std::vector<Gateway> kept;
+  for (const UnsureGateway& one : found) {
+    const bool is_separate = std::none_of(kept.begin(), kept.end(), [&](const Gateway& g) {
+      return std::abs(turn_between(bearing_from(center, g), bearing_from(center, one.gateway))) <
+             options.min_gateway_separation_rad;
+    });
+    if (!is_separate) {
+      bounds.closed.push_back(one.gateway);
+      continue;
+    }
+    kept.push_back(one.gateway);
+    if (one.log_odds == kSure) {
+      bounds.gateways.push_back(one.gateway);
+    } else {
+      bounds.unsure.push_back(one);
+    }
   }
   sort_clockwise(center, &bounds.gateways);
   return bounds;

@@ -150,6 +150,9 @@ LocalView look_around(const OccupancyGrid& grid,
   clear_specks(options.speck_m, &view.grid);
   view.is_wall = walls_with_chinks(view.grid);
   view.distances = distance_transform(view.grid);
+  const GridGeometry& map = grid.geometry();
+  view.p_map_low = map.origin_m;
+  view.p_map_high = map.origin_m + map.cell_m * Vector2d(map.width, map.height);
   view.robot = view.grid.geometry().cell_at(p_grid_robot);
   MedialAxisOptions axis_options;
   axis_options.min_clearance_m = 0.5 * options.robot_width_m;

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "place/axis_sites.hpp"
 #include "place/gateways.hpp"
 #include "place/local_view.hpp"
+#include "place/passage.hpp"
 #include "place/region.hpp"
 #include "place/small_scale_star.hpp"
 
@@ -46,8 +48,19 @@ bool is_near_node(const LocalView& view, const AxisSite& site) {
   });
 }
 
-/// A place lets the robot choose, turn, or return.
-bool is_place(const std::vector<Gateway>& gateways, const PlaceOptions& options) {
+/// A place lets the robot choose, turn, or return. Doorways through which it has not
+/// gone make no place.
+bool is_place(const PlaceNeighbourhood& place, const PlaceOptions& options) {
+  std::vector<Gateway> gateways;
+  for (const Gateway& gateway : place.gateways) {
+    const bool is_unsure_doorway =
+        std::any_of(place.unsure.begin(), place.unsure.end(), [&](const UnsureGateway& one) {
+          return one.is_doorway && one.gateway.basis_points == gateway.basis_points;
+        });
+    if (!is_unsure_doorway) {
+      gateways.push_back(gateway);
+    }
+  }
   if (gateways.size() != 2) {
     return !gateways.empty();
   }
@@ -57,21 +70,27 @@ bool is_place(const std::vector<Gateway>& gateways, const PlaceOptions& options)
 }
 
 PlaceNeighbourhood neighbourhood_of(const LocalView& view,
+                                    const WalledLengths& walled,
                                     const AxisSite& site,
                                     const PlaceOptions& options) {
   PlaceNeighbourhood place;
   place.center = center_of(view, site);
-  const SiteBounds bounds = bounds_of(view, site, place.center, options);
-  place.gateways = bounds.gateways;
-  place.fragments = mutual_straight_continuations(place.gateways, options.continuation);
-  place.star =
-      small_scale_star(place.center, place.gateways, place.fragments, options.midline_below_m);
+  const SiteBounds bounds = bounds_of(view, walled, site, place.center, options);
+  StarReadings readings = read_stars(place.center, bounds.gateways, bounds.unsure, options);
+  place.gateways = std::move(readings.gateways);
+  place.fragments = std::move(readings.fragments);
+  place.star = std::move(readings.star);
+  place.others = std::move(readings.others);
+  place.unsure = bounds.unsure;
   std::vector<Cell> starts;
   for (const std::size_t n : site.nodes) {
     starts.push_back(view.axis.nodes[n].cell);
   }
   std::vector<Gateway> lines = bounds.gateways;
   lines.insert(lines.end(), bounds.closed.begin(), bounds.closed.end());
+  for (const UnsureGateway& one : bounds.unsure) {
+    lines.push_back(one.gateway);
+  }
   const PlaceRegion region =
       flooded_region(view, starts, lines, place.center, options.robot_width_m);
   place.is_complete = bounds.is_decided && region.is_complete;
@@ -84,25 +103,44 @@ PlaceNeighbourhood neighbourhood_of(const LocalView& view,
 
 }  // namespace
 
+std::vector<Gateway> sure_gateways(const PlaceNeighbourhood& place) {
+  std::vector<Gateway> sure;
+  for (const Gateway& gateway : place.gateways) {
+    const bool is_unsure = std::any_of(
+        place.unsure.begin(), place.unsure.end(),
+        [&](const UnsureGateway& one) { return one.gateway.basis_points == gateway.basis_points; });
+    if (!is_unsure) {
+      sure.push_back(gateway);
+    }
+  }
+  return sure;
+}
+
 PlaceNeighbourhood transformed(const Pose2& T_to_from, const PlaceNeighbourhood& neighbourhood) {
   PlaceNeighbourhood result = neighbourhood;
   result.center = T_to_from * neighbourhood.center;
   for (Gateway& gateway : result.gateways) {
     gateway = transformed(T_to_from, gateway);
   }
+  for (UnsureGateway& one : result.unsure) {
+    one.gateway = transformed(T_to_from, one.gateway);
+  }
   return result;
 }
 
 std::vector<PlaceNeighbourhood> find_places(const OccupancyGrid& grid,
                                             const Vector2d& p_grid_robot,
-                                            const PlaceOptions& options) {
+                                            const PlaceOptions& options,
+                                            PlaceMemory memory) {
   LocalView view = look_around(grid, p_grid_robot, options);
+  view.memory = std::move(memory);
   const double cell_m = view.grid.geometry().cell_m;
   view.axis = with_corner_nodes(view.axis, cell_m, kWeakCorner * options.min_corner_rad);
+  const WalledLengths walled(view);
   std::vector<PlaceNeighbourhood> places;
   for (const AxisSite& site : axis_sites(view, options)) {
-    PlaceNeighbourhood place = neighbourhood_of(view, site, options);
-    if (is_place(place.gateways, options) && place.distinctiveness >= options.min_distinctiveness) {
+    PlaceNeighbourhood place = neighbourhood_of(view, walled, site, options);
+    if (is_place(place, options) && place.distinctiveness >= options.min_distinctiveness) {
       places.push_back(std::move(place));
     }
   }

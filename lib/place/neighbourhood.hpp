@@ -4,8 +4,10 @@
 
 #include "grid/occupancy_grid.hpp"
 #include "place/gateway.hpp"
+#include "place/local_view.hpp"
 #include "place/path_fragments.hpp"
 #include "place/place_options.hpp"
+#include "place/star_readings.hpp"
 #include "star/star.hpp"
 
 namespace cairn {
@@ -17,13 +19,18 @@ struct PlaceNeighbourhood {
   std::vector<Gateway> gateways;  ///< Clockwise, numbered as in the star.
   std::vector<PathFragment> fragments;
   Star star;
+  std::vector<StarReading> others;    ///< Other stars that it may have.
+  std::vector<UnsureGateway> unsure;  ///< Openings that may be gateways.
   /// Whether no cell of unknown state can be reached from the centre without leaving through a
-  /// gateway. Unknown stretches that are narrower than the robot do not count.
+  /// gateway or an unsure one. Unknown stretches narrower than the robot do not count.
   bool is_complete = false;
   double radius_m = 0.0;         ///< From the centre to the farthest gateway or wall of the region.
   double distinctiveness = 0.0;  ///< See place/island.hpp; [0, 1].
   bool contains_robot = false;   ///< Whether the robot was inside when this was read.
 };
+
+/// The gateways of the first reading that are sure.
+[[nodiscard]] std::vector<Gateway> sure_gateways(const PlaceNeighbourhood& place);
 
 /// The same neighbourhood in another frame.
 [[nodiscard]] PlaceNeighbourhood transformed(const Pose2& T_to_from,
@@ -39,6 +46,7 @@ struct PlaceNeighbourhood {
 /// Source: Kuipers et al., ICRA 2004, Sec. III-B, geometric criterion.
 [[nodiscard]] std::vector<PlaceNeighbourhood> find_places(const OccupancyGrid& grid,
                                                           const Vector2d& p_grid_robot,
-                                                          const PlaceOptions& options);
+                                                          const PlaceOptions& options,
+                                                          PlaceMemory memory = {});
 
 }  // namespace cairn

@@ -14,6 +14,7 @@ constexpr double kWayBefore_m = 4.0;
 /// A turn on the spot shows something new, too.
 constexpr double kLookAfterTurn_rad = 0.5;
 constexpr double kPoseSpacing_m = 0.05;
+constexpr double kDrivenSpacing_m = 0.2;
 /// The centre of a wide place moves more from reading to reading, up to this.
 constexpr double kMaxSameSpot_m = 1.5;
 
@@ -27,11 +28,27 @@ void extend_way(const StampedPose& pose, double keep_m, std::vector<StampedPose>
     return;
   }
   way->push_back(pose);
-  const auto too_many = static_cast<std::ptrdiff_t>(way->size()) -
-                        static_cast<std::ptrdiff_t>(keep_m / kPoseSpacing_m);
-  if (too_many > 0) {
-    way->erase(way->begin(), way->begin() + too_many);
+  double travelled_m = 0.0;
+  std::size_t first = way->size() - 1;
+  while (first > 0 && travelled_m <= keep_m) {
+    travelled_m += distance_between((*way)[first], (*way)[first - 1]);
+    --first;
   }
+  way->erase(way->begin(), way->begin() + static_cast<std::ptrdiff_t>(first));
+}
+
+void extend_driven(const Vector2d& p, double memory_m, std::vector<Vector2d>* driven) {
+  if (!driven->empty() && (driven->back() - p).norm() < kDrivenSpacing_m) {
+    return;
+  }
+  driven->push_back(p);
+  double travelled_m = 0.0;
+  std::size_t first = driven->size() - 1;
+  while (first > 0 && travelled_m <= memory_m) {
+    travelled_m += ((*driven)[first] - (*driven)[first - 1]).norm();
+    --first;
+  }
+  driven->erase(driven->begin(), driven->begin() + static_cast<std::ptrdiff_t>(first));
 }
 
 const PlaceNeighbourhood* place_with_robot(const std::vector<PlaceNeighbourhood>& places) {
@@ -71,6 +88,7 @@ std::vector<PlaceEvent> PlaceDetector::observe(TimePoint time,
   std::vector<PlaceEvent> events;
   const StampedPose now{time, T_lpm_robot};
   last_pose_ = now;
+  extend_driven(T_lpm_robot.translation(), options_.driven_memory_m, &driven_);
   if (stay_) {
     stay_->add_pose(now);
   } else {
@@ -91,7 +109,14 @@ void PlaceDetector::look(const StampedPose& now,
                          std::vector<PlaceEvent>* events) {
   ++report_.looks;
   last_look_ = now;
-  around_ = find_places(grid, now.T_lpm_robot.translation(), options_);
+  PlaceMemory memory;
+  memory.robot_way = driven_;
+  memory.robot_way.push_back(now.T_lpm_robot.translation());
+  for (const PlaceNeighbourhood& place : around_) {
+    const std::vector<Gateway> sure = sure_gateways(place);
+    memory.gateways.insert(memory.gateways.end(), sure.begin(), sure.end());
+  }
+  around_ = find_places(grid, now.T_lpm_robot.translation(), options_, std::move(memory));
   const PlaceNeighbourhood* const here = place_with_robot(around_);
   if (stay_) {
     // As long as nothing complete was seen, the place is whatever is read around the robot.
@@ -112,9 +137,10 @@ void PlaceDetector::look(const StampedPose& now,
     const bool is_left = stay_->gateway_left_through(options_.left_beyond_m) >= 0 ||
                          stay_->is_far_outside(options_.left_beyond_m) ||
                          (is_elsewhere && has_crossed);
-    announce(now, is_left, events);
     if (is_left) {
-      close_stay(grid);
+      close_stay(now, grid, same, events);
+    } else {
+      announce(now, false, events);
     }
   }
   if (!stay_ && here != nullptr) {
@@ -154,14 +180,20 @@ double PlaceDetector::same_spot_m(const PlaceNeighbourhood& place) const {
   return std::max(options_.same_spot_m, std::min(0.5 * place.radius_m, kMaxSameSpot_m));
 }
 
-void PlaceDetector::close_stay(const OccupancyGrid& grid) {
+void PlaceDetector::close_stay(const StampedPose& now,
+                               const OccupancyGrid& grid,
+                               const PlaceNeighbourhood* reading,
+                               std::vector<PlaceEvent>* events) {
   way_ = stay_->last_of_way(kWayBefore_m);
-  if (stay_->is_complete()) {
+  if (reading == nullptr) {
+    ++report_.retracted;
+  } else if (!stay_->conclude(*reading)) {
+    ++report_.dropped_incomplete;
+  } else {
+    announce(now, true, events);
     stay_->keep_map(grid, options_.crop_margin_m);
     stay_->leave();
     waiting_ = std::move(stay_);
-  } else {
-    ++report_.dropped_incomplete;
   }
   stay_.reset();
 }

@@ -29,6 +29,7 @@ struct PlaceDetectorReport {
   std::int64_t visits = 0;              ///< Closed and emitted.
   std::int64_t turn_arounds = 0;        ///< Returns that took a visit up again.
   std::int64_t dropped_incomplete = 0;  ///< Stays dropped: the star was never complete.
+  std::int64_t retracted = 0;           ///< Stays dropped: seen as a whole, it is no place.
 };
 
 /// Tells, from the robot's way through its local map, when it is at a place and which place that
@@ -66,7 +67,11 @@ class PlaceDetector {
  private:
   void look(const StampedPose& now, const OccupancyGrid& grid, std::vector<PlaceEvent>* events);
   void open_stay(const StampedPose& now, const PlaceNeighbourhood& reading);
-  void close_stay(const OccupancyGrid& grid);
+  /// @param reading of the place the robot has left; nullptr: there is no place any more
+  void close_stay(const StampedPose& now,
+                  const OccupancyGrid& grid,
+                  const PlaceNeighbourhood* reading,
+                  std::vector<PlaceEvent>* events);
   /// Whether the stay is at the place that was left last, and the robot did not come around to it.
   [[nodiscard]] bool has_come_back() const;
   void take_up_again();
@@ -80,6 +85,7 @@ class PlaceDetector {
   std::optional<StampedPose> last_pose_;
   std::optional<StampedPose> last_look_;
   std::vector<StampedPose> way_;  ///< The last metres before a stay.
+  std::vector<Vector2d> driven_;  ///< Where the robot has gone of late, oldest first.
   std::optional<PlaceStay> stay_;
   std::optional<PlaceStay> waiting_;  ///< Left, but not yet followed by another place.
   std::vector<Gateway> confirmed_;    ///< Of the stay, in frame lpm.

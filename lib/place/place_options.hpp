@@ -17,9 +17,10 @@ struct PlaceOptions {
   double constriction_tolerance_m = 0.1;  ///< Roughness of walls. >= 0
   double min_corner_rad = 0.79;           ///< Two gateways less out of line are no place. (0, pi)
   double min_gateway_separation_rad = 0.35;  ///< Gateways closer in bearing are one. [0, pi)
-  double doorway_below_m = 1.2;              ///< Narrower constrictions are doorways. >= 0
-  double doorway_depth_m = 2.5;              ///< Free passage that makes a doorway a gateway. > 0
-  double seen_beyond_m = 1.0;         ///< Free passage that makes a wider opening a gateway. > 0
+  double doorway_below_m = 1.2;              ///< Narrower openings are doorways, and make no place
+                                             ///< until driven through. >= 0
+  double passage_depth_m = 4.0;       ///< Way seen along walls that makes an opening a gateway. > 0
+  double driven_memory_m = 30.0;      ///< Travel for which the way driven is remembered. > 0
   double midline_below_m = 6.0;       ///< Wider passages are followed by a wall. > 0
   double min_distinctiveness = 0.05;  ///< [0, 1]
   double recompute_after_m = 0.25;    ///< Travel between two looks at the map. >= 0

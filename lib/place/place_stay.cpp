@@ -10,9 +10,6 @@ namespace {
 constexpr double kPoseSpacing_m = 0.05;
 /// Walls have no exact place: a line is crossed also a little beside its ends.
 constexpr double kCrossingSlack_m = 0.3;
-/// Gateways of two readings are the same one within these.
-constexpr double kSameGateway_m = 1.0;
-constexpr double kSameGateway_rad = 0.6;
 
 /// Equal but for the gateway that numbering starts from.
 bool same_star(const Star& a, const Star& b) {
@@ -79,11 +76,6 @@ OccupancyGrid cropped(const OccupancyGrid& grid,
 
 }  // namespace
 
-bool is_same_gateway(const Gateway& a, const Gateway& b) {
-  return (a.middle - b.middle).norm() < kSameGateway_m &&
-         std::abs(turn_between(a.outward_bearing_rad, b.outward_bearing_rad)) < kSameGateway_rad;
-}
-
 bool agree(const PlaceNeighbourhood& a, const PlaceNeighbourhood& b) {
   return a.gateways.size() == b.gateways.size() && same_star(a.star, b.star) &&
          std::all_of(a.gateways.begin(), a.gateways.end(), [&](const Gateway& gateway) {
@@ -103,19 +95,26 @@ PlaceStay::PlaceStay(const StampedPose& entry,
 void PlaceStay::add_reading(const PlaceNeighbourhood& reading) {
   last_reading_ = reading;
   if (!reading.is_complete) {
-    ++incomplete_since_;
     return;
   }
-  for (Group& group : groups_) {
-    if (agree(group.latest, reading)) {
-      group.latest = reading;
-      ++group.count;
-      incomplete_since_ = std::max(0, incomplete_since_ - 1);
-      return;
-    }
+  if (last_complete_ && agree(*last_complete_, reading)) {
+    settled_ = reading;
   }
-  incomplete_since_ = groups_.empty() ? 0 : incomplete_since_;
-  groups_.push_back({1, reading});
+  last_complete_ = reading;
+}
+
+bool PlaceStay::is_crossed(const std::vector<Gateway>& gateways) const {
+  return has_come_from_outside_ && last_passage(gateways, way_, -1).gateway >= 0 &&
+         last_passage(gateways, way_, +1).gateway >= 0;
+}
+
+bool PlaceStay::conclude(const PlaceNeighbourhood& reading) {
+  const bool counts = reading.is_complete || is_crossed(reading.gateways);
+  if (counts) {
+    settled_ = reading;
+    last_complete_ = reading;
+  }
+  return counts || is_complete();
 }
 
 void PlaceStay::add_pose(const StampedPose& pose) {
@@ -125,26 +124,8 @@ void PlaceStay::add_pose(const StampedPose& pose) {
   }
 }
 
-const PlaceStay::Group* PlaceStay::best_group() const {
-  const Group* best = nullptr;
-  for (const Group& group : groups_) {
-    best = best == nullptr || group.count >= best->count ? &group : best;
-  }
-  return best;
-}
-
-bool PlaceStay::is_complete() const {
-  const Group* const best = best_group();
-  return best != nullptr && best->count >= incomplete_since_;
-}
-
-bool PlaceStay::is_settled() const {
-  return is_complete() && best_group()->count > 1;
-}
-
 const PlaceNeighbourhood& PlaceStay::best() const {
-  const Group* const best = best_group();
-  return best != nullptr ? best->latest : last_reading_;
+  return settled_ ? *settled_ : last_complete_ ? *last_complete_ : last_reading_;
 }
 
 int PlaceStay::gateway_left_through(double beyond_m) const {
@@ -205,8 +186,17 @@ void PlaceStay::leave() {
 }
 
 std::vector<StampedPose> PlaceStay::last_of_way(double keep_m) const {
-  const auto count = std::min(way_.size(), static_cast<std::size_t>(keep_m / kPoseSpacing_m));
-  return {way_.end() - static_cast<std::ptrdiff_t>(count), way_.end()};
+  std::size_t first = way_.size();
+  double travelled_m = 0.0;
+  while (first > 0 && travelled_m <= keep_m) {
+    --first;
+    if (first > 0) {
+      travelled_m +=
+          (way_[first].T_lpm_robot.translation() - way_[first - 1].T_lpm_robot.translation())
+              .norm();
+    }
+  }
+  return {way_.begin() + static_cast<std::ptrdiff_t>(first), way_.end()};
 }
 
 void PlaceStay::keep_map(const OccupancyGrid& grid, double crop_margin_m) {
@@ -231,10 +221,11 @@ void PlaceStay::keep_map(const OccupancyGrid& grid, double crop_margin_m) {
 void PlaceStay::continue_with(const PlaceStay& later) {
   departure_ = -1;
   way_.insert(way_.end(), later.way_.begin(), later.way_.end());
-  for (const Group& group : later.groups_) {
-    for (int i = 0; i < group.count; ++i) {
-      add_reading(group.latest);
-    }
+  if (later.last_complete_) {
+    last_complete_ = later.last_complete_;
+  }
+  if (later.settled_) {
+    settled_ = later.settled_;
   }
   last_reading_ = later.last_reading_;
 }

@@ -43,13 +43,17 @@ class PlaceStay {
   /// Takes the robot's next pose; poses closer than a few centimetres are not kept.
   void add_pose(const StampedPose& pose);
 
-  /// Whether the star was read completely, and not more often incompletely again since then.
-  [[nodiscard]] bool is_complete() const;
-  /// Whether it was read completely more than once.
-  [[nodiscard]] bool is_settled() const;
-  /// The reading that counts by now, in frame lpm: the complete one seen most often, the later one
-  /// of equals; the last one while none was complete.
+  /// Whether the star was read completely.
+  [[nodiscard]] bool is_complete() const { return last_complete_.has_value(); }
+  /// Whether it was read completely, twice in a row the same.
+  [[nodiscard]] bool is_settled() const { return settled_.has_value(); }
+  /// The reading that counts by now, in frame lpm: the last one that was complete and the same
+  /// twice in a row; failing that the last complete one; the last one while none was complete.
   [[nodiscard]] const PlaceNeighbourhood& best() const;
+  /// The last word: the place as read when the robot has left it, with all that was seen from it,
+  /// if it is complete, or if the robot came and went through its gateways.
+  /// @return whether the stay is one at a place at all
+  bool conclude(const PlaceNeighbourhood& reading);
   [[nodiscard]] TimePoint entered() const { return entry_.time; }
 
   /// Number of the gateway, of the best reading, that the robot crossed outward last and is beyond
@@ -74,33 +78,25 @@ class PlaceStay {
   /// The last metres of the way.
   [[nodiscard]] std::vector<StampedPose> last_of_way(double keep_m) const;
 
-  /// @pre is_complete(), and the map was kept
+  /// @pre conclude() or is_complete(), and the map was kept
   [[nodiscard]] PlaceVisit visit() const;
 
  private:
-  /// Readings that agree about gateways and star.
-  struct Group {
-    int count = 0;
-    PlaceNeighbourhood latest;
-  };
-
-  [[nodiscard]] const Group* best_group() const;
   [[nodiscard]] int arrival() const;
+  /// Whether the way came in through one of these gateways and left through one.
+  [[nodiscard]] bool is_crossed(const std::vector<Gateway>& gateways) const;
   [[nodiscard]] int nearest_gateway(const Vector2d& p_lpm) const;
 
   StampedPose entry_;
   bool has_come_from_outside_;
   std::vector<StampedPose> way_;
-  std::vector<Group> groups_;  ///< Of complete readings.
-  int incomplete_since_ = 0;   ///< Incomplete readings after the first complete one, not made good.
   PlaceNeighbourhood last_reading_;
+  std::optional<PlaceNeighbourhood> last_complete_;
+  std::optional<PlaceNeighbourhood> settled_;
   int departure_ = -1;
   Pose2 T_lpm_place_;
   OccupancyGrid crop_;
 };
-
-/// Whether two readings of gateways, in one frame, are about the same one.
-[[nodiscard]] bool is_same_gateway(const Gateway& a, const Gateway& b);
 
 /// Whether two readings show the same gateways and the same star.
 [[nodiscard]] bool agree(const PlaceNeighbourhood& a, const PlaceNeighbourhood& b);

@@ -131,8 +131,13 @@ void MappingService::Pipeline::take_up(Visit visit, Updates* updates) {
     return;
   }
   const VisitId id{static_cast<int>(experience_.visits().size())};
-  const View view{visit.perceived.neighbourhood.star, std::max(visit.perceived.arrival_gateway, 0),
-                  id};
+  View view{visit.perceived.neighbourhood.star, std::max(visit.perceived.arrival_gateway, 0), id};
+  for (const StarReading& reading : visit.perceived.neighbourhood.others) {
+    if (validate(Reading{reading.star, reading.gateways, reading.log_likelihood},
+                 gateway_count(view.star), view.arrival_gateway)) {
+      view.others.push_back({reading.star, reading.gateways, reading.log_likelihood});
+    }
+  }
   if (!validate(view)) {
     ++refused_visits_;  // A star beyond what the tree takes up; a later visit may see it better.
     return;

@@ -47,6 +47,10 @@ inline PlaceVisit corner_at(const Vector2d& p_lpm) {
                                     {1, 3, ControlLaw::kMidline},
                                     {-1, 0, ControlLaw::kDeadEnd},
                                     {-1, 1, ControlLaw::kDeadEnd}};
+  // That one of the fragments ends here is not sure.
+  visit.neighbourhood.unsure = {{visit.neighbourhood.gateways[1], -1.5, false}};
+  visit.neighbourhood.others = {
+      {{{{0, 1, ControlLaw::kMidline}, {-1, 0, ControlLaw::kDeadEnd}}}, {0}, -1.5}};
   visit.neighbourhood.is_complete = true;
   GridGeometry geometry;
   geometry.width = 12;

@@ -216,12 +216,12 @@ TEST_F(MapFileCommands, AFileThatIsNoMapIsBadData) {
   run_sql(output("other.db"), "CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT)");
   run_sql(output("future.db"),
           "CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT);"
-          "INSERT INTO meta VALUES ('application', 'cairn'), ('format_version', '2')");
+          "INSERT INTO meta VALUES ('application', 'cairn'), ('format_version', '3')");
 
   for (const auto& [name, reason] :
        std::map<std::string, std::string>{{"notes.txt", "is no cairn map"},
                                           {"other.db", "is no cairn map"},
-                                          {"future.db", "format 2; this program reads format 1"},
+                                          {"future.db", "format 3; this program reads format 2"},
                                           {"missing.db", "there is no such file"}}) {
     const Outcome status = run({"status", output(name.c_str())});
     EXPECT_EQ(status.status, 65) << name;

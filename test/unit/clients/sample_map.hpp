@@ -23,7 +23,7 @@ namespace cairn::clients {
 [[nodiscard]] cairn_lcm::trajectory_t sample_trajectory();
 [[nodiscard]] cairn_lcm::status_t sample_status();
 
-/// Writes the sample as a map file of format 1, with three visits in the journal.
+/// Writes the sample as a map file of format 2, with three visits in the journal.
 void write_sample_map(const std::filesystem::path& path);
 
 }  // namespace cairn::clients

@@ -61,6 +61,10 @@ TEST(JournalCodec, GivesBackTheVisitItTook) {
   ASSERT_TRUE(read.ok()) << read.error().message;
   EXPECT_EQ(read->anchor_scan, 17U);
   EXPECT_EQ(read->perceived.neighbourhood.star, visit.perceived.neighbourhood.star);
+  EXPECT_EQ(read->perceived.neighbourhood.others, visit.perceived.neighbourhood.others);
+  ASSERT_EQ(read->perceived.neighbourhood.unsure.size(), 1U);
+  EXPECT_EQ(read->perceived.neighbourhood.unsure[0].log_odds, -1.5);
+  EXPECT_EQ(read->perceived.neighbourhood.unsure[0].gateway.width_m, 2.0);
   EXPECT_EQ(read->perceived.neighbourhood.fragments, visit.perceived.neighbourhood.fragments);
   EXPECT_EQ(read->perceived.lpm.cells(), visit.perceived.lpm.cells());
   EXPECT_EQ(to_row(*read), to_row(visit));
