@@ -1,0 +1,150 @@
+#include "region/region_graph.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "base/check.hpp"
+#include "region/furniture.hpp"
+#include "region/region_contacts.hpp"
+
+namespace cairn {
+namespace {
+
+/// The nearest cell that is not free on the other side of a critical point than its basis point.
+/// Cells on the other side of the Voronoi diagram, which runs through the critical point, look to
+/// it.
+std::array<Cell, 2> basis_points_of(const DistanceTransform& distances, Cell critical_point) {
+  constexpr int kReach = 3;
+  const Cell first = distances.basis_point(critical_point);
+  const Vector2d to_first(first.x - critical_point.x, first.y - critical_point.y);
+  Cell second = first;
+  double least = 1.0;
+  for (int y = critical_point.y - kReach; y <= critical_point.y + kReach; ++y) {
+    for (int x = critical_point.x - kReach; x <= critical_point.x + kReach; ++x) {
+      if (!distances.window().contains({x, y}) || distances.state({x, y}) != CellState::kFree) {
+        continue;
+      }
+      const Cell basis = distances.basis_point({x, y});
+      const Vector2d to(basis.x - critical_point.x, basis.y - critical_point.y);
+      const double norms = to.norm() * to_first.norm();
+      const double cosine = norms > 0.0 ? to.dot(to_first) / norms : 1.0;
+      if (cosine < least) {
+        least = cosine;
+        second = basis;
+      }
+    }
+  }
+  return {first, second};
+}
+
+/// Contacts of two basins, in connected groups: each of them is a line.
+class LineFinder {
+ public:
+  LineFinder(const DistanceTransform& distances, std::vector<BasinContact> contacts)
+      : distances_(distances), contacts_(std::move(contacts)), is_taken_(contacts_.size(), 0) {}
+
+  std::vector<CriticalLine> find() {
+    std::vector<CriticalLine> lines;
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      if (is_taken_[i] == 0) {
+        lines.push_back(line_from(i));
+      }
+    }
+    return lines;
+  }
+
+ private:
+  CriticalLine line_from(std::size_t start) {
+    std::vector<std::size_t> open{start};
+    is_taken_[start] = 1;
+    std::size_t best = start;
+    for (std::size_t next = 0; next < open.size(); ++next) {
+      const BasinContact at = contacts_[open[next]];
+      const auto rank = [this](std::size_t i) {
+        return std::tuple(-contacts_[i].squared_cells, contacts_[i].cell);
+      };
+      best = rank(open[next]) < rank(best) ? open[next] : best;
+      for (int dx = -1; dx <= 1; ++dx) {
+        for (int dy = -1; dy <= 1; ++dy) {
+          take(at, {at.cell.x + dx, at.cell.y + dy}, &open);
+        }
+      }
+    }
+    CriticalLine line;
+    line.from = static_cast<std::size_t>(contacts_[start].from);
+    line.to = static_cast<std::size_t>(contacts_[start].to);
+    line.critical_point = contacts_[best].cell;
+    line.basis_points = basis_points_of(distances_, line.critical_point);
+    const auto& [a, b] = line.basis_points;
+    line.width_m =
+        distances_.geometry().cell_m * std::max(std::hypot(b.x - a.x, b.y - a.y) - 1.0, 0.0);
+    return line;
+  }
+
+  void take(const BasinContact& at, Cell cell, std::vector<std::size_t>* open) {
+    const auto key = std::tuple(at.from, at.to, cell);
+    const auto found = std::lower_bound(contacts_.begin(), contacts_.end(), key,
+                                        [](const BasinContact& c, const auto& wanted) {
+                                          return std::tuple(c.from, c.to, c.cell) < wanted;
+                                        });
+    if (found == contacts_.end() || std::tuple(found->from, found->to, found->cell) != key) {
+      return;
+    }
+    const auto index = static_cast<std::size_t>(found - contacts_.begin());
+    if (is_taken_[index] == 0) {
+      is_taken_[index] = 1;
+      open->push_back(index);
+    }
+  }
+
+  const DistanceTransform& distances_;
+  std::vector<BasinContact> contacts_;
+  std::vector<std::uint8_t> is_taken_;
+};
+
+std::vector<Region> regions_of(const ClearanceBasins& basins, const DistanceTransform& distances) {
+  std::vector<Region> regions(static_cast<std::size_t>(basins.count));
+  std::vector<std::int32_t> best(regions.size(), -1);
+  const double cell_m = distances.geometry().cell_m;
+  std::size_t index = 0;
+  for (int y = 0; y < basins.height; ++y) {
+    for (int x = 0; x < basins.width; ++x, ++index) {
+      if (basins.basin_of[index] == ClearanceBasins::kNone) {
+        continue;
+      }
+      const auto number = static_cast<std::size_t>(basins.basin_of[index]);
+      regions[number].area_m2 += cell_m * cell_m;
+      const std::int32_t squared = distances.squared_clearance_cells({x, y});
+      if (squared > best[number]) {
+        best[number] = squared;
+        regions[number].centre = {x, y};
+        regions[number].clearance_m = distances.clearance_m({x, y});
+      }
+    }
+  }
+  return regions;
+}
+
+}  // namespace
+
+RegionGraph region_graph(const OccupancyGrid& grid, const RegionOptions& options) {
+  CAIRN_CHECK(validate(options).ok());
+  const DistanceTransform distances =
+      distance_transform(without_furniture(grid, options.furniture_size_m));
+  ClearanceBasins basins = clearance_basins(distances, options);
+  join_small_basins(distances, options.min_area_m2, &basins);
+
+  RegionGraph graph;
+  graph.geometry = grid.geometry();
+  graph.regions = regions_of(basins, distances);
+  graph.lines = LineFinder(distances, contacts_of(basins, distances)).find();
+  for (std::size_t i = 0; i < graph.lines.size(); ++i) {
+    graph.regions[graph.lines[i].from].lines.push_back(i);
+    graph.regions[graph.lines[i].to].lines.push_back(i);
+  }
+  graph.region_of = std::move(basins.basin_of);
+  return graph;
+}
+
+}  // namespace cairn
