@@ -215,6 +215,10 @@ void add_rooms_command(CLI::App& app, const Streams& streams, int* status) {
   number("--max-line", &request->options.max_line_m, "M", "A wider opening parts no regions");
   number("--max-narrowing", &request->options.max_narrowing, "SHARE",
          "Clearance at a line over that of either side, at most");
+  number("--widening", &request->options.widening, "SHARE",
+         "Free space beyond a doorway is wider by this");
+  number("--doorway-depth", &request->options.doorway_depth_m, "M",
+         "How near beyond a doorway free space must be wider");
   number("--min-area", &request->options.min_area_m2, "M2", "Smaller regions join a neighbour");
   number("--furniture", &request->options.furniture_size_m, "M",
          "What stands free and is no longer than this is looked through");

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "base/check.hpp"
+#include "region/doorways.hpp"
 #include "region/furniture.hpp"
 #include "region/region_contacts.hpp"
 
@@ -126,13 +127,76 @@ std::vector<Region> regions_of(const ClearanceBasins& basins, const DistanceTran
   return regions;
 }
 
+/// Cells of a line without gaps between side by side neighbours.
+std::vector<Cell> cells_of(const Doorway& doorway) {
+  const auto& [a, b] = doorway.basis_points;
+  const int steps = 2 * std::max(std::abs(b.x - a.x), std::abs(b.y - a.y));
+  std::vector<Cell> cells;
+  for (int i = 0; i <= steps; ++i) {
+    const double share = static_cast<double>(i) / std::max(steps, 1);
+    const Cell next{static_cast<int>(std::lround(a.x + share * (b.x - a.x))),
+                    static_cast<int>(std::lround(a.y + share * (b.y - a.y)))};
+    if (!cells.empty() && cells.back().x != next.x && cells.back().y != next.y) {
+      cells.push_back({cells.back().x, next.y});
+    }
+    cells.push_back(next);
+  }
+  return cells;
+}
+
+/// The grid with all doors shut.
+OccupancyGrid shut(OccupancyGrid grid, const std::vector<Doorway>& doors) {
+  for (const Doorway& door : doors) {
+    for (const Cell cell : cells_of(door)) {
+      grid.log_odds(cell) = OccupancyGrid::kOccupiedAbove + 1;
+    }
+  }
+  return grid;
+}
+
+/// Gives the cells of shut doors to a basin beside them.
+void fill_doors(const DistanceTransform& open,
+                const std::vector<Doorway>& doors,
+                ClearanceBasins* basins) {
+  const auto index_of = [&](Cell c) {
+    return static_cast<std::size_t>(c.y) * static_cast<std::size_t>(basins->width) +
+           static_cast<std::size_t>(c.x);
+  };
+  std::vector<Cell> empty;
+  for (const Doorway& door : doors) {
+    for (const Cell cell : cells_of(door)) {
+      if (open.state(cell) == CellState::kFree) {
+        empty.push_back(cell);
+      }
+    }
+  }
+  bool is_changed = true;
+  while (is_changed) {
+    is_changed = false;
+    for (const Cell cell : empty) {
+      for (const Cell next : {Cell{cell.x - 1, cell.y}, Cell{cell.x + 1, cell.y},
+                              Cell{cell.x, cell.y - 1}, Cell{cell.x, cell.y + 1}}) {
+        std::int32_t& basin = basins->basin_of[index_of(cell)];
+        if (basin == ClearanceBasins::kNone && open.window().contains(next) &&
+            basins->basin_of[index_of(next)] != ClearanceBasins::kNone) {
+          basin = basins->basin_of[index_of(next)];
+          is_changed = true;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 
 RegionGraph region_graph(const OccupancyGrid& grid, const RegionOptions& options) {
   CAIRN_CHECK(validate(options).ok());
-  const DistanceTransform distances =
-      distance_transform(without_furniture(grid, options.furniture_size_m));
-  ClearanceBasins basins = clearance_basins(distances, options);
+  OccupancyGrid bare = without_furniture(grid, options.furniture_size_m);
+  const DistanceTransform distances = distance_transform(bare);
+  const std::vector<Doorway> doors = doorways(distances, options);
+  ClearanceBasins basins =
+      clearance_basins(distance_transform(shut(std::move(bare), doors)), options);
+  fill_doors(distances, doors, &basins);
   join_small_basins(distances, options.min_area_m2, &basins);
 
   RegionGraph graph;
