@@ -7,6 +7,7 @@
 namespace cairn {
 namespace {
 
+constexpr double kMostWidening = 1.0;
 constexpr double kOpposite = -0.9;  ///< Cosine between basis points, seen from the diagram.
 
 struct Line {
@@ -64,11 +65,33 @@ class WallProbe {
  public:
   WallProbe(const DistanceTransform& distances, const RegionOptions& options)
       : distances_(distances),
-        widening_(options.widening),
-        depth_cells_(options.doorway_depth_m / distances.geometry().cell_m) {}
+        depth_cells_(options.doorway_depth_m / distances.geometry().cell_m),
+        obstacles_(distances.geometry().cell_count()) {
+    const GridWindow& window = distances.window();
+    for (int y = window.lower.y; y < window.lower.y + window.height; ++y) {
+      for (int x = window.lower.x; x < window.lower.x + window.width; ++x) {
+        obstacles_[distances.geometry().index_of({x, y})] =
+            distances.state({x, y}) == CellState::kFree ? 0 : 1;
+      }
+    }
+  }
 
-  [[nodiscard]] bool is_doorway(const Line& line) const {
-    return widens(line, line.normal()) && widens(line, -1.0 * line.normal());
+  void shut(const Doorway& doorway) {
+    for (const Cell cell : cells_of(doorway)) {
+      ++obstacles_[distances_.geometry().index_of(cell)];
+    }
+  }
+  void open(const Doorway& doorway) {
+    for (const Cell cell : cells_of(doorway)) {
+      --obstacles_[distances_.geometry().index_of(cell)];
+    }
+  }
+
+  /// By what share of the line's length free space widens on the side where it does less; at most
+  /// kMostWidening, and 0 where clearance falls or something blocks the way.
+  [[nodiscard]] double widening(const Line& line) const {
+    const double one = widening(line, line.normal());
+    return one > 0.0 ? std::min(one, widening(line, -1.0 * line.normal())) : 0.0;
   }
 
  private:
@@ -77,7 +100,9 @@ class WallProbe {
   }
 
   [[nodiscard]] bool is_free(const Vector2d& p) const {
-    return distances_.state(cell_at(p)) == CellState::kFree;
+    const Cell cell = cell_at(p);
+    return distances_.window().contains(cell) &&
+           obstacles_[distances_.geometry().index_of(cell)] == 0;
   }
 
   /// How far free space goes on from a point, at most so far.
@@ -89,30 +114,28 @@ class WallProbe {
     return far;
   }
 
-  [[nodiscard]] bool widens(const Line& line, const Vector2d& aside) const {
+  [[nodiscard]] double widening(const Line& line, const Vector2d& aside) const {
     constexpr double kFirst = 2.0;  // Cells: as far as the grid can tell.
     if (distances_.clearance_m(cell_at(line.middle + kFirst * aside)) <
         distances_.clearance_m(cell_at(line.middle)) - 0.5 * distances_.geometry().cell_m) {
-      return false;
+      return 0.0;
     }
-    const double wanted = (1.0 + widening_) * line.length;
+    const double most = (0.5 + kMostWidening) * line.length;
+    double widest = line.length;
     for (double depth = 1.0; depth <= depth_cells_; depth += 1.0) {
       const Vector2d at = line.middle + depth * aside;
       if (!is_free(at)) {
-        return false;
+        break;
       }
-      const double wide =
-          1.0 + reach(at, line.along, wanted) + reach(at, -1.0 * line.along, wanted);
-      if (wide >= wanted) {
-        return true;
-      }
+      widest =
+          std::max(widest, 1.0 + reach(at, line.along, most) + reach(at, -1.0 * line.along, most));
     }
-    return false;
+    return std::min(widest / line.length - 1.0, kMostWidening);
   }
 
   const DistanceTransform& distances_;
-  double widening_;
   double depth_cells_;
+  std::vector<std::uint16_t> obstacles_;  ///< How many, for every cell of the grid.
 };
 
 double cross(const Vector2d& a, const Vector2d& b) {
@@ -131,26 +154,103 @@ bool rival(const Line& a, const Line& b) {
   }
   const double on_a = cross(apart, b.along) / sine;
   const double on_b = cross(apart, a.along) / sine;
-  return std::abs(on_a) < 0.5 * a.length && std::abs(on_b) < 0.5 * b.length;
+  return std::abs(on_a) < 0.45 * a.length && std::abs(on_b) < 0.45 * b.length;
 }
+
+/// Finds doorways among candidates, with those already found shut.
+class DoorwaySearch {
+ public:
+  DoorwaySearch(const DistanceTransform& distances, const RegionOptions& options)
+      : probe_(distances, options), least_(options.widening) {}
+
+  /// Adds what may be a doorway as long as the new ones are open.
+  void add(const std::vector<Doorway>& candidates) {
+    const std::size_t before = doors_.size();
+    for (const Doorway& candidate : candidates) {
+      const Line line(candidate);
+      const bool has_rival = std::any_of(lines_.begin(), lines_.end(),
+                                         [&](const Line& other) { return rival(line, other); });
+      if (!has_rival && probe_.widening(line) >= least_) {
+        doors_.push_back(candidate);
+        lines_.push_back(line);
+      }
+    }
+    for (std::size_t i = before; i < doors_.size(); ++i) {
+      probe_.shut(doors_[i]);
+    }
+  }
+
+  /// Takes back, the least first, what is no doorway while all others are shut.
+  void reconsider() {
+    std::vector<double> widenings(doors_.size());
+    for (std::size_t i = 0; i < doors_.size(); ++i) {
+      widenings[i] = widening_alone(i);
+    }
+    while (!widenings.empty()) {
+      const auto least = std::min_element(widenings.rbegin(), widenings.rend());
+      if (*least >= least_) {
+        return;
+      }
+      const auto which = static_cast<std::size_t>(widenings.rend() - least) - 1;
+      const Line gone = lines_[which];
+      probe_.open(doors_[which]);
+      const auto at = static_cast<std::ptrdiff_t>(which);
+      doors_.erase(doors_.begin() + at);
+      lines_.erase(lines_.begin() + at);
+      widenings.erase(widenings.begin() + at);
+      for (std::size_t i = 0; i < doors_.size(); ++i) {
+        const double reach = (1.0 + kMostWidening) * (gone.length + lines_[i].length);
+        if ((lines_[i].middle - gone.middle).norm() <= reach) {
+          widenings[i] = widening_alone(i);
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<Doorway> found() && { return std::move(doors_); }
+
+ private:
+  double widening_alone(std::size_t which) {
+    probe_.open(doors_[which]);
+    const double widening = probe_.widening(lines_[which]);
+    probe_.shut(doors_[which]);
+    return widening;
+  }
+
+  WallProbe probe_;
+  double least_;
+  std::vector<Doorway> doors_;
+  std::vector<Line> lines_;
+};
 
 }  // namespace
 
-std::vector<Doorway> doorways(const DistanceTransform& distances, const RegionOptions& options) {
-  const WallProbe probe(distances, options);
-  std::vector<Doorway> accepted;
-  std::vector<Line> lines;
-  for (const Doorway& candidate :
-       candidates(distances, options.max_line_m / distances.geometry().cell_m + 1.0)) {
-    const Line line(candidate);
-    const bool has_rival = std::any_of(lines.begin(), lines.end(),
-                                       [&](const Line& other) { return rival(line, other); });
-    if (!has_rival && probe.is_doorway(line)) {
-      accepted.push_back(candidate);
-      lines.push_back(line);
+std::vector<Cell> cells_of(const Doorway& doorway) {
+  const auto& [a, b] = doorway.basis_points;
+  const int steps = 2 * std::max(std::abs(b.x - a.x), std::abs(b.y - a.y));
+  std::vector<Cell> cells;
+  for (int i = 0; i <= steps; ++i) {
+    const double share = static_cast<double>(i) / std::max(steps, 1);
+    const Cell next{static_cast<int>(std::lround(a.x + share * (b.x - a.x))),
+                    static_cast<int>(std::lround(a.y + share * (b.y - a.y)))};
+    if (!cells.empty() && cells.back().x != next.x && cells.back().y != next.y) {
+      cells.push_back({cells.back().x, next.y});
     }
+    cells.push_back(next);
   }
-  return accepted;
+  return cells;
+}
+
+std::vector<Doorway> doorways(const DistanceTransform& distances, const RegionOptions& options) {
+  constexpr int kRounds = 2;  // What had a rival that was taken back gets another chance.
+  const std::vector<Doorway> all =
+      candidates(distances, options.max_line_m / distances.geometry().cell_m + 1.0);
+  DoorwaySearch search(distances, options);
+  for (int round = 0; round < kRounds; ++round) {
+    search.add(all);
+    search.reconsider();
+  }
+  return std::move(search).found();
 }
 
 }  // namespace cairn

@@ -14,10 +14,14 @@ struct Doorway {
   double length_cells = 0.0;         ///< From one to the other.
 };
 
+/// The cells of a doorway, its ends included; each lies beside the one before.
+[[nodiscard]] std::vector<Cell> cells_of(const Doorway& doorway);
+
 /// The doorways of a map, the narrowest first. A doorway is a line between two basis points that
 /// see each other across the Voronoi diagram; it is at most `max_line_m` wide and so shallow that
 /// free space is wider by the share `widening` within `doorway_depth_m` on either side, and
-/// clearance falls on neither. Of lines that cross, or lie in one doorway, the shortest stays.
+/// clearance falls on neither, while all other doorways are shut. Of lines that cross, or lie in
+/// one doorway, the shortest stays.
 ///
 /// Critical points (Thrun and Bücken, AAAI 1996) where the free space on one side of a door is no
 /// larger than the door, as in a corridor, a cubicle or a closet, are hardly minima of clearance:

@@ -127,23 +127,6 @@ std::vector<Region> regions_of(const ClearanceBasins& basins, const DistanceTran
   return regions;
 }
 
-/// Cells of a line without gaps between side by side neighbours.
-std::vector<Cell> cells_of(const Doorway& doorway) {
-  const auto& [a, b] = doorway.basis_points;
-  const int steps = 2 * std::max(std::abs(b.x - a.x), std::abs(b.y - a.y));
-  std::vector<Cell> cells;
-  for (int i = 0; i <= steps; ++i) {
-    const double share = static_cast<double>(i) / std::max(steps, 1);
-    const Cell next{static_cast<int>(std::lround(a.x + share * (b.x - a.x))),
-                    static_cast<int>(std::lround(a.y + share * (b.y - a.y)))};
-    if (!cells.empty() && cells.back().x != next.x && cells.back().y != next.y) {
-      cells.push_back({cells.back().x, next.y});
-    }
-    cells.push_back(next);
-  }
-  return cells;
-}
-
 /// The grid with all doors shut.
 OccupancyGrid shut(OccupancyGrid grid, const std::vector<Doorway>& doors) {
   for (const Doorway& door : doors) {
