@@ -106,29 +106,34 @@ std::vector<BasinContact> contacts_of(const ClearanceBasins& basins,
     return basins.basin_of[static_cast<std::size_t>(y) * static_cast<std::size_t>(basins.width) +
                            static_cast<std::size_t>(x)];
   };
-  const auto add = [&](int x, int y, std::int32_t other) {
-    const std::int32_t own = basin_at(x, y);
-    const Cell cell{lower.x + x, lower.y + y};
-    if (own != other && own != ClearanceBasins::kNone && other != ClearanceBasins::kNone) {
-      contacts.push_back({std::min(own, other), std::max(own, other), cell,
-                          distances.squared_clearance_cells(cell)});
+  const auto add = [&](Cell one, Cell two) {
+    const std::int32_t a = basin_at(one.x, one.y);
+    const std::int32_t b = basin_at(two.x, two.y);
+    if (a == b || a == ClearanceBasins::kNone || b == ClearanceBasins::kNone) {
+      return;
     }
+    const auto [from, to] = std::minmax(a, b);
+    const Cell cell{lower.x + one.x, lower.y + one.y};
+    const Cell other{lower.x + two.x, lower.y + two.y};
+    const std::int32_t squared =
+        std::min(distances.squared_clearance_cells(cell), distances.squared_clearance_cells(other));
+    contacts.push_back({from, to, cell, squared});
+    contacts.push_back({from, to, other, squared});
   };
   for (int y = 0; y < basins.height; ++y) {
     for (int x = 0; x < basins.width; ++x) {
-      if (x + 1 < basins.width && basin_at(x, y) != basin_at(x + 1, y)) {
-        add(x, y, basin_at(x + 1, y));
-        add(x + 1, y, basin_at(x, y));
+      if (x + 1 < basins.width) {
+        add({x, y}, {x + 1, y});
       }
-      if (y + 1 < basins.height && basin_at(x, y) != basin_at(x, y + 1)) {
-        add(x, y, basin_at(x, y + 1));
-        add(x, y + 1, basin_at(x, y));
+      if (y + 1 < basins.height) {
+        add({x, y}, {x, y + 1});
       }
     }
   }
   const auto key = [](const BasinContact& c) { return std::tuple(c.from, c.to, c.cell); };
-  std::sort(contacts.begin(), contacts.end(),
-            [&](const BasinContact& a, const BasinContact& b) { return key(a) < key(b); });
+  std::sort(contacts.begin(), contacts.end(), [&](const BasinContact& a, const BasinContact& b) {
+    return std::pair(key(a), -a.squared_cells) < std::pair(key(b), -b.squared_cells);
+  });
   contacts.erase(
       std::unique(contacts.begin(), contacts.end(),
                   [&](const BasinContact& a, const BasinContact& b) { return key(a) == key(b); }),

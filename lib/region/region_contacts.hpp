@@ -12,7 +12,7 @@ struct BasinContact {
   std::int32_t from = 0;  ///< Basins, from < to.
   std::int32_t to = 0;
   Cell cell;                       ///< Of the window.
-  std::int32_t squared_cells = 0;  ///< Clearance there.
+  std::int32_t squared_cells = 0;  ///< Clearance where one steps across, the less of both cells.
 };
 
 /// All contacts, ordered by basins, then by cell. Two basins that are open to each other at several

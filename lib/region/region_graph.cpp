@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "base/check.hpp"
@@ -12,27 +13,24 @@
 namespace cairn {
 namespace {
 
-/// The nearest cell that is not free on the other side of a critical point than its basis point.
-/// Cells on the other side of the Voronoi diagram, which runs through the critical point, look to
-/// it.
+/// The basis point of a critical point, and the nearest cell that is not free opposite to it,
+/// within 45 degrees; the same one twice where there is none as near as at a critical point.
 std::array<Cell, 2> basis_points_of(const DistanceTransform& distances, Cell critical_point) {
-  constexpr int kReach = 3;
+  constexpr double kOpposite = -0.7;
   const Cell first = distances.basis_point(critical_point);
   const Vector2d to_first(first.x - critical_point.x, first.y - critical_point.y);
+  // Flooding is exact by some cells only.
+  const int reach = static_cast<int>(std::ceil(1.5 * to_first.norm())) + 3;
   Cell second = first;
-  double least = 1.0;
-  for (int y = critical_point.y - kReach; y <= critical_point.y + kReach; ++y) {
-    for (int x = critical_point.x - kReach; x <= critical_point.x + kReach; ++x) {
-      if (!distances.window().contains({x, y}) || distances.state({x, y}) != CellState::kFree) {
-        continue;
-      }
-      const Cell basis = distances.basis_point({x, y});
-      const Vector2d to(basis.x - critical_point.x, basis.y - critical_point.y);
-      const double norms = to.norm() * to_first.norm();
-      const double cosine = norms > 0.0 ? to.dot(to_first) / norms : 1.0;
-      if (cosine < least) {
-        least = cosine;
-        second = basis;
+  double least = std::numeric_limits<double>::infinity();
+  for (int dy = -reach; dy <= reach; ++dy) {
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const Cell cell{critical_point.x + dx, critical_point.y + dy};
+      const Vector2d to(dx, dy);
+      if (distances.window().contains(cell) && distances.state(cell) != CellState::kFree &&
+          to.dot(to_first) < kOpposite * to.norm() * to_first.norm() && to.norm() < least) {
+        least = to.norm();
+        second = cell;
       }
     }
   }
@@ -63,7 +61,9 @@ class LineFinder {
     for (std::size_t next = 0; next < open.size(); ++next) {
       const BasinContact at = contacts_[open[next]];
       const auto rank = [this](std::size_t i) {
-        return std::tuple(-contacts_[i].squared_cells, contacts_[i].cell);
+        const Cell cell = contacts_[i].cell;
+        return std::tuple(-contacts_[i].squared_cells, distances_.squared_clearance_cells(cell),
+                          cell);
       };
       best = rank(open[next]) < rank(best) ? open[next] : best;
       for (int dx = -1; dx <= 1; ++dx) {
