@@ -3,61 +3,36 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+
+#include "grid/clearance_order.hpp"
 
 namespace cairn {
 namespace {
 
-/// Indices of the free cells, the largest clearance first, then the lowest index.
-std::vector<std::int32_t> by_falling_clearance(const std::vector<std::int32_t>& squared) {
-  std::int32_t most = 0;
-  for (const std::int32_t value : squared) {
-    if (value != DistanceTransform::kUnbounded) {
-      most = std::max(most, value);
-    }
+CellMask free_cells(const DistanceTransform& distances) {
+  CellMask free(distances.window().width, distances.window().height);
+  for (std::size_t i = 0; i < free.cells.size(); ++i) {
+    free.cells[i] = distances.squared_clearances_cells()[i] > 0 ? 1 : 0;
   }
-  // A counting sort; what nothing bounds has a bucket of its own.
-  const auto bucket_of = [most](std::int32_t value) {
-    return static_cast<std::size_t>(value == DistanceTransform::kUnbounded ? 0 : most + 1 - value);
-  };
-  std::vector<std::size_t> begin(static_cast<std::size_t>(most) + 3, 0);
-  for (const std::int32_t value : squared) {
-    ++begin[bucket_of(value) + 1];
-  }
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<std::int32_t> order(squared.size());
-  for (std::size_t i = 0; i < squared.size(); ++i) {
-    order[begin[bucket_of(squared[i])]++] = static_cast<std::int32_t>(i);
-  }
-  while (!order.empty() && squared[static_cast<std::size_t>(order.back())] == 0) {
-    order.pop_back();
-  }
-  return order;
+  return free;
 }
 
 class Flood {
  public:
   Flood(const DistanceTransform& distances, const RegionOptions& options)
-      : window_(distances.window()), narrowing_(options.max_narrowing * options.max_narrowing) {
+      : window_(distances.window()),
+        narrowing_(options.max_narrowing * options.max_narrowing),
+        order_(cells_by_clearance(distances, free_cells(distances))),
+        squared_(distances.squared_clearances_cells()) {
     basins_.width = window_.width;
     basins_.height = window_.height;
     const double line_cells = options.max_line_m / distances.geometry().cell_m;
     most_at_saddle_ = 0.25 * line_cells * line_cells;
-    squared_.reserve(static_cast<std::size_t>(window_.width) *
-                     static_cast<std::size_t>(window_.height));
-    for (int y = 0; y < window_.height; ++y) {
-      for (int x = 0; x < window_.width; ++x) {
-        squared_.push_back(
-            distances.squared_clearance_cells({window_.lower.x + x, window_.lower.y + y}));
-      }
-    }
     basins_.basin_of.assign(squared_.size(), ClearanceBasins::kNone);
   }
 
   ClearanceBasins run() {
-    for (const std::int32_t index : by_falling_clearance(squared_)) {
-      take_in(static_cast<std::size_t>(index));
-    }
+    std::for_each(order_.rbegin(), order_.rend(), [this](std::size_t index) { take_in(index); });
     number_basins();
     return std::move(basins_);
   }
@@ -78,47 +53,65 @@ class Flood {
     return saddle <= most_at_saddle_ && saddle <= narrowing_ * lower;
   }
 
-  /// Joins the basins around a cell that nothing parts, and puts the cell into the one it rises to.
-  void take_in(std::size_t index) {
-    const int x = static_cast<int>(index % static_cast<std::size_t>(window_.width));
-    const int y = static_cast<int>(index / static_cast<std::size_t>(window_.width));
-    std::array<std::int32_t, 8> around{};
+  /// The cells around one that lie in a basin already.
+  struct Around {
+    std::array<std::size_t, 8> cells{};
+    std::array<std::int32_t, 8> roots{};
     std::size_t count = 0;
-    std::int32_t steepest = ClearanceBasins::kNone;
-    double best_rise = -1.0;
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        if (x + dx < 0 || y + dy < 0 || x + dx >= window_.width || y + dy >= window_.height) {
-          continue;
-        }
+  };
+
+  Around around(int x, int y) {
+    Around result;
+    const auto width = static_cast<std::size_t>(window_.width);
+    for (int row = std::max(y - 1, 0); row <= std::min(y + 1, window_.height - 1); ++row) {
+      for (int column = std::max(x - 1, 0); column <= std::min(x + 1, window_.width - 1);
+           ++column) {
         const std::size_t next =
-            static_cast<std::size_t>(y + dy) * static_cast<std::size_t>(window_.width) +
-            static_cast<std::size_t>(x + dx);
-        if (basins_.basin_of[next] == ClearanceBasins::kNone) {
-          continue;
-        }
-        const std::int32_t root = root_of(basins_.basin_of[next]);
-        around[count++] = root;
-        const double rise =
-            (std::sqrt(squared_[next]) - std::sqrt(squared_[index])) / std::hypot(dx, dy);
-        if (rise > best_rise) {
-          best_rise = rise;
-          steepest = root;
+            static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column);
+        if (basins_.basin_of[next] != ClearanceBasins::kNone) {
+          result.cells[result.count] = next;
+          result.roots[result.count++] = root_of(basins_.basin_of[next]);
         }
       }
     }
-    if (count == 0) {
+    return result;
+  }
+
+  /// Joins the basins around a cell that nothing parts, and puts the cell into the one it rises to.
+  void take_in(std::size_t index) {
+    const auto width = static_cast<std::size_t>(window_.width);
+    const Around near = around(static_cast<int>(index % width), static_cast<int>(index / width));
+    if (near.count == 0) {
       basins_.basin_of[index] = static_cast<std::int32_t>(parent_.size());
       parent_.push_back(basins_.basin_of[index]);
       peak_.push_back(squared_[index]);
       return;
     }
-    for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        join(squared_[index], around[i], around[j]);
+    bool meets = false;
+    for (std::size_t i = 1; i < near.count; ++i) {
+      for (std::size_t j = 0; j < i && near.roots[i] != near.roots[i - 1]; ++j) {
+        join(squared_[index], near.roots[i], near.roots[j]);
+        meets = true;
       }
     }
-    basins_.basin_of[index] = root_of(steepest);
+    basins_.basin_of[index] = meets ? root_of(steepest(index, near)) : near.roots[0];
+  }
+
+  /// The basin of the neighbour that clearance rises to most steeply.
+  [[nodiscard]] std::int32_t steepest(std::size_t index, const Around& near) const {
+    std::int32_t best = near.roots[0];
+    double best_rise = -1.0;
+    for (std::size_t i = 0; i < near.count; ++i) {
+      const std::size_t apart = std::max(near.cells[i], index) - std::min(near.cells[i], index);
+      const bool is_side = apart == 1 || apart == static_cast<std::size_t>(window_.width);
+      const double rise = (std::sqrt(squared_[near.cells[i]]) - std::sqrt(squared_[index])) /
+                          (is_side ? 1.0 : std::sqrt(2.0));
+      if (rise > best_rise) {
+        best_rise = rise;
+        best = near.roots[i];
+      }
+    }
+    return best;
   }
 
   void join(std::int32_t saddle, std::int32_t a, std::int32_t b) {
@@ -148,7 +141,8 @@ class Flood {
   GridWindow window_;
   double narrowing_;
   double most_at_saddle_ = 0.0;
-  std::vector<std::int32_t> squared_;
+  std::vector<std::size_t> order_;
+  const std::vector<std::int32_t>& squared_;
   ClearanceBasins basins_;
   std::vector<std::int32_t> parent_;
   std::vector<std::int32_t> peak_;  ///< Largest squared clearance, by root.
