@@ -114,11 +114,15 @@ GreyPicture read_pgm(const std::filesystem::path& file, const std::string& bytes
 
 GreyPicture read_grey_picture(const std::filesystem::path& file) {
   std::error_code is_no_file;
-  std::ifstream stream(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  if (!std::filesystem::is_regular_file(file, is_no_file) || !stream) {
+  std::ifstream stream;
+  if (std::filesystem::is_regular_file(file,
+                                       is_no_file)) {  // A folder can be opened, but not read.
+    stream.open(file, std::ios::binary);
+  }
+  if (!stream.is_open()) {
     refuse(file, "cannot be read");
   }
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
   return bytes.rfind("P5", 0) == 0 ? read_pgm(file, bytes) : PngReader().read(file, bytes);
 }
 

@@ -1,5 +1,6 @@
 #include "bench/lab/rooms_command.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "bench/lab/rooms_score.hpp"
 #include "clients/common/failure.hpp"
 #include "clients/common/text.hpp"
+#include "grid/medial_axis.hpp"
 
 namespace cairn::lab {
 namespace {
@@ -26,6 +28,8 @@ struct RoomsRun {
   std::string map;
   RegionGraph graph;
   double time_ms = 0.0;
+  double skeleton_ms =
+      0.0;  ///< Distance transform and medial axis of the piece of the largest region.
   std::optional<RoomsScore> score;
 };
 
@@ -49,14 +53,33 @@ void check(const RoomsRequest& request) {
   }
 }
 
+double ms_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+      .count();
+}
+
+/// How long the Voronoi diagram around the largest region takes.
+double time_skeleton_ms(const OccupancyGrid& grid, const RegionGraph& graph) {
+  const auto largest =
+      std::max_element(graph.regions.begin(), graph.regions.end(),
+                       [](const Region& a, const Region& b) { return a.area_m2 < b.area_m2; });
+  if (largest == graph.regions.end()) {
+    return 0.0;
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const MedialAxis axis =
+      medial_axis(distance_transform(grid), largest->centre, MedialAxisOptions{});
+  return axis.nodes.empty() ? 0.0 : ms_since(begin);
+}
+
 RoomsRun run_one(const RoomsRequest& request, std::size_t which) {
   RoomsRun run;
   run.map = request.maps[which];
   const OccupancyGrid grid = grid_of(read_grey_picture(run.map), request.cell_m);
   const auto begin = std::chrono::steady_clock::now();
   run.graph = region_graph(grid, request.options);
-  run.time_ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  run.time_ms = ms_since(begin);
+  run.skeleton_ms = time_skeleton_ms(grid, run.graph);
   if (!request.truths.empty()) {
     const std::string& file = request.truths[which];
     const TrueRooms truth = true_rooms(read_grey_picture(file));
@@ -124,6 +147,7 @@ OrderedJson json_of(const RoomsRun& run) {
   json["regions"] = run.graph.regions.size();
   json["critical_lines"] = run.graph.lines.size();
   json["time_ms"] = run.time_ms;
+  json["skeleton_ms"] = run.skeleton_ms;
   json["graph"] = json_of(run.graph);
   return json;
 }

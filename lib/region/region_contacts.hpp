@@ -21,8 +21,8 @@ struct BasinContact {
                                                     const DistanceTransform& distances);
 
 /// Gives basins of less than the least area to the neighbour across the widest opening, the
-/// smallest first; those that have no neighbour and less than `min_piece_m2` are dropped. Numbers
-/// what is left without gaps, in the order of the lowest cells.
+/// smallest first; those that have no neighbour are dropped. Numbers what is left without gaps, in
+/// the order of the lowest cells.
 void join_small_basins(const DistanceTransform& distances,
                        double min_area_m2,
                        ClearanceBasins* basins);

@@ -10,7 +10,7 @@ struct RegionOptions {
   double max_narrowing = 0.75;     ///< Clearance at a line over that of either side. (0, 1)
   double widening = 0.25;          ///< Of free space beyond a doorway, over its width. > 0
   double doorway_depth_m = 0.5;    ///< Free space is that much wider within this. > 0
-  double min_area_m2 = 1.5;        ///< Of a region that has a neighbour. >= 0
+  double min_area_m2 = 1.5;        ///< Smaller ones join a neighbour, or are none. >= 0
   double furniture_size_m = 0.75;  ///< Longest side of what stands free in a room. >= 0
 };
 
