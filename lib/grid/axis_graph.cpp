@@ -14,15 +14,21 @@ class AxisTracer {
       : skeleton_(skeleton),
         distances_(distances),
         node_of_(skeleton.cells.size(), kNone),
-        walked_(skeleton.cells.size(), 0) {}
+        walked_(skeleton.cells.size(), 0) {
+    for (std::size_t i = 0; i < skeleton.cells.size(); ++i) {
+      if (skeleton.cells[i] != 0) {
+        cells_.push_back(i);
+      }
+    }
+  }
 
   MedialAxis trace() {
-    for (std::size_t i = 0; i < skeleton_.cells.size(); ++i) {
-      if (skeleton_.cells[i] != 0 && node_of_[i] == kNone && neighbours(i).size() != 2) {
+    for (const std::size_t i : cells_) {
+      if (node_of_[i] == kNone && neighbours(i).size() != 2) {
         add_node(i);
       }
     }
-    for (std::size_t i = 0; i < skeleton_.cells.size(); ++i) {
+    for (const std::size_t i : cells_) {
       if (node_of_[i] != kNone) {
         walk_all_from(i);
       }
@@ -36,14 +42,28 @@ class AxisTracer {
   /// A bump on a node is no loop: a loop encloses at least a cell.
   static constexpr std::size_t kShortestLoop = 5;
 
-  [[nodiscard]] std::vector<std::size_t> neighbours(std::size_t index) const {
+  /// At most eight indices, ascending.
+  class Neighbours {
+   public:
+    void add(std::size_t index) { cells_[count_++] = index; }
+    [[nodiscard]] std::size_t size() const { return count_; }
+    [[nodiscard]] std::size_t operator[](std::size_t i) const { return cells_[i]; }
+    [[nodiscard]] const std::size_t* begin() const { return cells_.data(); }
+    [[nodiscard]] const std::size_t* end() const { return cells_.data() + count_; }
+
+   private:
+    std::array<std::size_t, 8> cells_{};
+    std::size_t count_ = 0;
+  };
+
+  [[nodiscard]] Neighbours neighbours(std::size_t index) const {
     const int x = static_cast<int>(index % static_cast<std::size_t>(skeleton_.width));
     const int y = static_cast<int>(index / static_cast<std::size_t>(skeleton_.width));
-    std::vector<std::size_t> result;
+    Neighbours result;
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
         if ((dx != 0 || dy != 0) && skeleton_.has(x + dx, y + dy)) {
-          result.push_back(skeleton_.index_of(x + dx, y + dy));
+          result.add(skeleton_.index_of(x + dx, y + dy));
         }
       }
     }
@@ -100,7 +120,7 @@ class AxisTracer {
     while (node_of_[current] == kNone) {
       chain.push_back(current);
       walked_[current] = 1;
-      const std::vector<std::size_t> both = neighbours(current);
+      const Neighbours both = neighbours(current);
       const std::size_t next = both[0] == previous ? both[1] : both[0];
       previous = current;
       current = next;
@@ -125,8 +145,8 @@ class AxisTracer {
   }
 
   void add_closed_lines() {
-    for (std::size_t i = 0; i < skeleton_.cells.size(); ++i) {
-      if (skeleton_.cells[i] != 0 && node_of_[i] == kNone && walked_[i] == 0) {
+    for (const std::size_t i : cells_) {
+      if (node_of_[i] == kNone && walked_[i] == 0) {
         add_node(i);
         walk_all_from(i);
       }
@@ -135,6 +155,7 @@ class AxisTracer {
 
   const CellMask& skeleton_;
   const DistanceTransform& distances_;
+  std::vector<std::size_t> cells_;  ///< Of the skeleton.
   std::vector<std::size_t> node_of_;
   std::vector<std::uint8_t> walked_;
   MedialAxis axis_;

@@ -20,7 +20,8 @@ struct Envelope {
 /// Where the parabola at `q` gets below the one at `p`, for p < q.
 double intersection(int p, Squared height_p, int q, Squared height_q) {
   const Squared rise = height_q + Squared{q} * q - height_p - Squared{p} * p;
-  return static_cast<double>(rise) / (2.0 * (q - p));
+  // Between neighbours, as most are, the same without a division.
+  return q - p == 1 ? 0.5 * static_cast<double>(rise) : static_cast<double>(rise) / (2.0 * (q - p));
 }
 
 void make_envelope(const std::vector<Squared>& heights, Envelope* envelope) {
@@ -59,23 +60,24 @@ GridWindow clipped(const GridWindow& window, const GridGeometry& geometry) {
 /// Vertical distances: for each cell of a column the row of the nearest cell that is not free, or
 /// -1.
 std::vector<int> nearest_in_columns(const std::vector<CellState>& state, int width, int height) {
+  // Row by row, as memory lies.
   std::vector<int> row_of(state.size(), -1);
-  const auto at = [width](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-           static_cast<std::size_t>(x);
-  };
-  for (int x = 0; x < width; ++x) {
-    int last = -1;
-    for (int y = 0; y < height; ++y) {
-      last = state[at(x, y)] != CellState::kFree ? y : last;
-      row_of[at(x, y)] = last;
+  std::vector<int> last(static_cast<std::size_t>(width), -1);
+  std::size_t index = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int& row : last) {
+      row = state[index] != CellState::kFree ? y : row;
+      row_of[index++] = row;
     }
-    last = -1;
-    for (int y = height - 1; y >= 0; --y) {
-      last = state[at(x, y)] != CellState::kFree ? y : last;
-      int& nearest = row_of[at(x, y)];
-      if (last >= 0 && (nearest < 0 || last - y < y - nearest)) {
-        nearest = last;
+  }
+  std::fill(last.begin(), last.end(), -1);
+  for (int y = height - 1; y >= 0; --y) {
+    index = static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
+    for (int& row : last) {
+      row = state[index] != CellState::kFree ? y : row;
+      int& nearest = row_of[index++];
+      if (row >= 0 && (nearest < 0 || row - y < y - nearest)) {
+        nearest = row;
       }
     }
   }

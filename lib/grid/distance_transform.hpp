@@ -40,6 +40,11 @@ class DistanceTransform {
   /// @pre window().contains(c)
   [[nodiscard]] std::int32_t squared_clearance_cells(Cell c) const;
 
+  /// The same for all cells of the window, row by row from below.
+  [[nodiscard]] const std::vector<std::int32_t>& squared_clearances_cells() const {
+    return squared_cells_;
+  }
+
   /// From the centre of the cell to the centre of its basis point, in metres; infinity where
   /// nothing bounds free space; 0 outside of the window.
   [[nodiscard]] double clearance_m(Cell c) const;
@@ -47,6 +52,9 @@ class DistanceTransform {
   /// The nearest cell that is not free; the cell itself where it is not free, or unbounded.
   /// @pre window().contains(c)
   [[nodiscard]] Cell basis_point(Cell c) const;
+
+  /// The same for all cells of the window, as indices within it.
+  [[nodiscard]] const std::vector<std::int32_t>& basis_indices() const { return basis_; }
 
   static constexpr std::int32_t kUnbounded = INT32_MAX;
 

@@ -1,27 +1,59 @@
 #include "grid/thinning.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 
 namespace cairn {
 namespace {
 
-/// The eight neighbours of a cell as bits, counterclockwise from the east.
-unsigned neighbours_of(const CellMask& set, int x, int y) {
-  unsigned bits = 0;
-  bits |= set.has(x + 1, y) ? 1U : 0U;
-  bits |= set.has(x + 1, y + 1) ? 2U : 0U;
-  bits |= set.has(x, y + 1) ? 4U : 0U;
-  bits |= set.has(x - 1, y + 1) ? 8U : 0U;
-  bits |= set.has(x - 1, y) ? 16U : 0U;
-  bits |= set.has(x - 1, y - 1) ? 32U : 0U;
-  bits |= set.has(x, y - 1) ? 64U : 0U;
-  bits |= set.has(x + 1, y - 1) ? 128U : 0U;
-  return bits;
-}
+/// A set with an empty cell all around, so that every cell of it has eight neighbours.
+class PaddedSet {
+ public:
+  explicit PaddedSet(const CellMask& set)
+      : set_width_(static_cast<std::uint32_t>(set.width)),
+        width_(std::size_t{set_width_} + 2),
+        cells_(width_ * (static_cast<std::size_t>(set.height) + 2)) {
+    for (std::size_t row = 0; row < static_cast<std::size_t>(set.height); ++row) {
+      std::copy_n(set.cells.data() + row * set_width_, set_width_,
+                  cells_.data() + (row + 1) * width_ + 1);
+    }
+  }
+
+  void write(CellMask* set) const {
+    for (std::size_t row = 0; row < static_cast<std::size_t>(set->height); ++row) {
+      std::copy_n(cells_.data() + (row + 1) * width_ + 1, set_width_,
+                  set->cells.data() + row * set_width_);
+    }
+  }
+
+  [[nodiscard]] std::size_t padded(std::size_t index) const {
+    // Divides in 32 bits, which is much faster; a mask of more cells fits into no memory.
+    const std::uint32_t row = static_cast<std::uint32_t>(index) / set_width_;
+    return index + width_ + 1 + 2 * std::size_t{row};
+  }
+  [[nodiscard]] bool has(std::size_t at) const { return cells_[at] != 0; }
+  void remove(std::size_t at) { cells_[at] = 0; }
+
+  /// The eight neighbours of a cell as bits, counterclockwise from the east.
+  [[nodiscard]] unsigned neighbours_of(std::size_t at) const {
+    const std::uint8_t* const own = cells_.data() + at;
+    const std::uint8_t* const above = own + width_;
+    const std::uint8_t* const below = own - width_;
+    return unsigned{own[1]} | unsigned{above[1]} << 1U | unsigned{above[0]} << 2U |
+           unsigned{above[-1]} << 3U | unsigned{own[-1]} << 4U | unsigned{below[-1]} << 5U |
+           unsigned{below[0]} << 6U | unsigned{below[1]} << 7U;
+  }
+
+ private:
+  std::uint32_t set_width_;
+  std::size_t width_;
+  std::vector<std::uint8_t> cells_;
+};
 
 /// The crossing number of Hilditch: how many 8-connected pieces the neighbours fall into as seen
 /// from the cell, when gaps of the complement count by their 4-neighbours.
-int crossing_number(unsigned bits) {
+constexpr int crossing_number(unsigned bits) {
   int crossings = 0;
   for (unsigned i = 0; i < 8; i += 2) {
     const bool side_empty = (bits >> i & 1U) == 0;
@@ -32,10 +64,14 @@ int crossing_number(unsigned bits) {
   return crossings;
 }
 
-/// Whether a cell can be taken away without any change of topology.
-bool is_simple(unsigned bits) {
-  return crossing_number(bits) == 1;
-}
+/// For all neighbourhoods: whether the cell can be taken away without any change of topology.
+constexpr std::array<bool, 256> kIsSimple = [] {
+  std::array<bool, 256> is_simple{};
+  for (unsigned bits = 0; bits < is_simple.size(); ++bits) {
+    is_simple[bits] = crossing_number(bits) == 1;
+  }
+  return is_simple;
+}();
 
 /// Whether a line would lose length with the cell: its end, or the end of a line two cells wide.
 /// The corner of a stair, between two sides, would not be missed.
@@ -45,30 +81,46 @@ bool is_end(unsigned bits) {
   return count < 2 || (count == 2 && (bits & ~kSides) != 0);
 }
 
-bool remove_once(const std::vector<std::size_t>& order, const CellMask* kept, CellMask* set) {
-  bool changed = false;
-  for (const std::size_t index : order) {
-    if (set->cells[index] == 0 || (kept != nullptr && kept->cells[index] != 0)) {
-      continue;
+/// Removes what may go of the cells in `order`, pass by pass until none goes. Leaves the cells that
+/// stay in `order`.
+void remove_all(bool keeps_ends, std::vector<std::size_t>* order, PaddedSet* set) {
+  std::size_t before = order->size() + 1;
+  while (order->size() < before) {
+    before = order->size();
+    std::size_t left = 0;
+    for (const std::size_t at : *order) {
+      const unsigned bits = set->neighbours_of(at);
+      if (kIsSimple[bits] && !(keeps_ends && is_end(bits))) {
+        set->remove(at);
+      } else {
+        (*order)[left++] = at;
+      }
     }
-    const int x = static_cast<int>(index % static_cast<std::size_t>(set->width));
-    const int y = static_cast<int>(index / static_cast<std::size_t>(set->width));
-    const unsigned bits = neighbours_of(*set, x, y);
-    if (is_simple(bits) && (kept != nullptr || !is_end(bits))) {
-      set->cells[index] = 0;
-      changed = true;
-    }
+    order->resize(left);
   }
-  return changed;
 }
 
 }  // namespace
 
 void thin(const std::vector<std::size_t>& order, const CellMask& kept, CellMask* set) {
-  while (remove_once(order, &kept, set)) {
+  PaddedSet padded(*set);
+  std::vector<std::size_t> all;
+  std::vector<std::size_t> candidates;
+  all.reserve(order.size());
+  candidates.reserve(order.size());
+  for (const std::size_t index : order) {
+    if (set->cells[index] != 0) {
+      all.push_back(padded.padded(index));
+      if (kept.cells[index] == 0) {
+        candidates.push_back(all.back());
+      }
+    }
   }
-  while (remove_once(order, nullptr, set)) {
-  }
+  remove_all(false, &candidates, &padded);
+  all.erase(std::remove_if(all.begin(), all.end(), [&](std::size_t at) { return !padded.has(at); }),
+            all.end());
+  remove_all(true, &all, &padded);
+  padded.write(set);
 }
 
 }  // namespace cairn
