@@ -80,7 +80,8 @@ OrderedJson json_of(const LocalmapRun& run, const std::optional<RelationReport>&
     json["relations"] = {{"missing", report->missing},
                          {"near_m", report->near_m},
                          {"all", json_of(report->all)},
-                         {"near", json_of(report->near)}};
+                         {"near", json_of(report->near)},
+                         {"near_and_sure", json_of(report->near_and_sure)}};
   }
   return json;
 }
@@ -116,6 +117,7 @@ void print(const LocalmapRun& run, const std::optional<RelationReport>& report, 
   if (report) {
     print(report->all, "(" + grouped(report->missing) + " missing)", out);
     print(report->near, "within " + fixed(report->near_m, 0) + " m of travel", out);
+    print(report->near_and_sure, "of these with both stamps borne by one pose", out);
   }
 }
 

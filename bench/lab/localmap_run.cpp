@@ -25,16 +25,33 @@ double seconds_of(TimePoint time) {
   return static_cast<double>(utime_of(time)) * 1e-6;
 }
 
-/// A trajectory has one pose at a time. Where stamps repeat, those of later messages are wrong.
-std::vector<TrackedPose> first_of_each_stamp(std::vector<TrackedPose> poses) {
-  std::stable_sort(poses.begin(), poses.end(),
-                   [](const TrackedPose& a, const TrackedPose& b) { return a.time_s < b.time_s; });
-  poses.erase(std::unique(poses.begin(), poses.end(),
-                          [](const TrackedPose& a, const TrackedPose& b) {
-                            return a.time_s == b.time_s;  // of whole microseconds, both
-                          }),
-              poses.end());
-  return poses;
+/// The mean of poses, as many as there are of scans if there are any.
+TrackedPose mean_pose(const std::vector<TrackedPose>& poses, std::size_t begin, std::size_t end) {
+  const auto is_of_scan = [](const TrackedPose& pose) { return pose.is_of_scan; };
+  const auto first = poses.begin() + static_cast<std::ptrdiff_t>(begin);
+  const auto last = poses.begin() + static_cast<std::ptrdiff_t>(end);
+  const bool has_scan = std::any_of(first, last, is_of_scan);
+  TrackedPose mean = *std::find_if(
+      first, last, [&](const TrackedPose& pose) { return pose.is_of_scan == has_scan; });
+  const Pose2 T_first_lpm = mean.T_lpm_robot.inverse();
+  Vector2d offset_m = Vector2d::Zero();  // of all from the first of them
+  double turn_rad = 0.0;
+  double further_m = 0.0;
+  double count = 0.0;
+  for (auto pose = first; pose != last; ++pose) {
+    if (pose->is_of_scan == has_scan) {
+      const Pose2 T_first_pose = T_first_lpm * pose->T_lpm_robot;
+      offset_m += T_first_pose.translation();
+      turn_rad += T_first_pose.theta();
+      further_m += pose->travel_m - mean.travel_m;
+      count += 1.0;
+    }
+  }
+  mean.T_lpm_robot =
+      mean.T_lpm_robot * Pose2(offset_m.x() / count, offset_m.y() / count, turn_rad / count);
+  mean.travel_m += further_m / count;
+  mean.sharing = static_cast<int>(end - begin);
+  return mean;
 }
 
 /// The local layer with a clock around its stages.
@@ -121,7 +138,7 @@ class Runner {
     const std::vector<Pose2> bent =
         interpolate_travel(T_previous_robot, last.T_lpm_robot, here.T_lpm_robot);
     for (std::size_t i = 0; i + 1 < between.size(); ++i) {
-      run_->poses.push_back({seconds_of(between[i].time), bent[i + 1], here.travel_m});
+      run_->poses.push_back({seconds_of(between[i].time), bent[i + 1], here.travel_m, false});
     }
   }
 
@@ -147,6 +164,21 @@ class Runner {
 };
 
 }  // namespace
+
+std::vector<TrackedPose> one_pose_per_stamp(std::vector<TrackedPose> poses) {
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const TrackedPose& a, const TrackedPose& b) { return a.time_s < b.time_s; });
+  std::vector<TrackedPose> single;
+  for (std::size_t begin = 0; begin < poses.size();) {
+    std::size_t end = begin + 1;
+    while (end < poses.size() && poses[end].time_s == poses[begin].time_s) {
+      ++end;  // stamps are whole microseconds
+    }
+    single.push_back(end == begin + 1 ? poses[begin] : mean_pose(poses, begin, end));
+    begin = end;
+  }
+  return single;
+}
 
 double StageTimes::mean_ms() const {
   return times_ms.empty() ? 0.0
@@ -187,7 +219,7 @@ LocalmapRun run_localmap(const std::string& log, const DaemonOptions& options) {
     throw Failure(ExitCode::kBadData,
                   log + ": no scan in it" + (reader->damage() ? "; " + *reader->damage() : ""));
   }
-  run.poses = first_of_each_stamp(std::move(run.poses));
+  run.poses = one_pose_per_stamp(std::move(run.poses));
   run.damage = reader->damage().value_or("");
   return run;
 }
