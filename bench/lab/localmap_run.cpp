@@ -57,10 +57,14 @@ TrackedPose mean_pose(const std::vector<TrackedPose>& poses, std::size_t begin, 
 /// The local layer with a clock around its stages.
 class Runner {
  public:
-  Runner(const DaemonOptions& options, LocalmapRun* run)
-      : run_(run), joiner_(options.service.joiner), mapper_(options.service.lpm) {}
+  Runner(const LocalmapSetup& setup, LocalmapRun* run)
+      : run_(run),
+        compensates_motion_(setup.compensates_motion),
+        joiner_(setup.options.service.joiner),
+        mapper_(setup.options.service.lpm) {}
 
   void take(LaserScan scan) {
+    scan.sweep_duration_s = compensates_motion_ ? scan.sweep_duration_s : 0.0;
     joiner_.add(std::move(scan));
     absorb_joined();
   }
@@ -111,7 +115,7 @@ class Runner {
     run_->refused += fix.is_matched || fix.note == FixNote::kFirst ? 0 : 1;
     run_->degenerate += fix.is_degenerate ? 1 : 0;
     if (is_drawn) {
-      keep_walls(joined.scan, fix.T_lpm_robot);
+      keep_walls(joined.scan, run_->track.back().T_lpm_robot);
     }
   }
 
@@ -120,6 +124,8 @@ class Runner {
     TrackedPose here{seconds_of(fix.time), fix.T_lpm_robot, 0.0};
     if (!run_->track.empty()) {
       const TrackedPose& last = run_->track.back();
+      // As dead reckoning has it, which walls may correct.
+      here.T_lpm_robot = last.T_lpm_robot * fix.motion.mean;
       const Vector2d step = here.T_lpm_robot.translation() - last.T_lpm_robot.translation();
       here.travel_m = last.travel_m + step.norm();
       keep_between(between, last, here);
@@ -156,6 +162,7 @@ class Runner {
   }
 
   LocalmapRun* run_;
+  bool compensates_motion_;
   ScanJoiner joiner_;
   BetweenScans between_;
   LocalMapper mapper_;
@@ -195,15 +202,15 @@ double StageTimes::quantile_ms(double share) const {
   return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
 }
 
-LocalmapRun run_localmap(const std::string& log, const DaemonOptions& options) {
+LocalmapRun run_localmap(const std::string& log, const LocalmapSetup& setup) {
   wire::Expected<wire::LogReader> reader = wire::LogReader::open(log);
   if (!reader) {
     throw Failure(ExitCode::kBadData, reader.error());
   }
   LocalmapRun run;
-  Runner runner(options, &run);
+  Runner runner(setup, &run);
   Inlets inlets(
-      to_inlet_options(options),
+      to_inlet_options(setup.options),
       {[&](LaserScan scan) { runner.take(std::move(scan)); },
        [&](const OdometrySample& sample) { runner.take(sample); }, [](const SonarRing&) {}});
   clients::Progress progress(log);

@@ -5,13 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "bench/lab/localmap_ablations.hpp"
 #include "geometry/pose2.hpp"
-#include "runtime/daemon_options.hpp"
 #include "sensing/scan_joiner.hpp"
 
 namespace cairn::lab {
 
-/// Where the local layer has the robot at one time.
+/// Where the local layer has the robot at one time, by the motions that it told one after the
+/// other.
 struct TrackedPose {
   double time_s = 0.0;
   Pose2 T_lpm_robot;
@@ -60,6 +61,6 @@ struct LocalmapRun {
 
 /// Runs joiner and local mapper over a log, nothing else. Throws clients::Failure(kBadData) where
 /// there is no log, or no scan in it.
-[[nodiscard]] LocalmapRun run_localmap(const std::string& log, const DaemonOptions& options);
+[[nodiscard]] LocalmapRun run_localmap(const std::string& log, const LocalmapSetup& setup);
 
 }  // namespace cairn::lab

@@ -101,6 +101,34 @@ TEST(LabLocalmap, TrustsThePosesOfScansMoreThanThoseBetween) {
   EXPECT_NEAR(poses[0].T_lpm_robot.theta(), 0.1, 1e-12);
 }
 
+TEST(LabLocalmap, LeavesPartsOutByName) {
+  const TemporaryFolder folder;
+  const std::string log = (folder / "a.clf").string();
+  write_file(log, carmen_log());
+  for (const char* part : {"wall-orientation", "motion-learning", "motion-compensation",
+                           "degeneracy-handling", "wall-orientation,motion-learning"}) {
+    const Ran ran = run({"localmap", log, "--without", part, "--json"});
+    ASSERT_EQ(ran.status, 0) << ran.errors;
+    EXPECT_NEAR(Json::parse(ran.output)["travel_m"].get<double>(), 2.0, 0.1) << part;
+  }
+  const Ran ran = run({"localmap", log, "--without", "luck"});
+  EXPECT_EQ(ran.status, 64);
+  EXPECT_THAT(ran.errors, HasSubstr("luck"));
+}
+
+TEST(LabLocalmap, EveryPartLeftOutChangesTheSetup) {
+  LocalmapSetup setup;
+  leave_out("motion-compensation", &setup);
+  EXPECT_FALSE(setup.compensates_motion);
+  leave_out("wall-orientation", &setup);
+  EXPECT_FALSE(setup.options.service.lpm.wall_orientation.enabled);
+  leave_out("motion-learning", &setup);
+  EXPECT_FALSE(setup.options.service.lpm.motion.learns);
+  leave_out("degeneracy-handling", &setup);
+  EXPECT_EQ(setup.options.service.lpm.motion.least_sigma_m, 1.0);
+  EXPECT_TRUE(validate(setup.options.service.lpm).ok());
+}
+
 TEST(LabLocalmap, RefusesWhatIsNotThere) {
   const TemporaryFolder folder;
   const std::string log = (folder / "a.clf").string();
