@@ -1,7 +1,6 @@
 // What the local layer makes of sensors that fail, stop, or lie: a reason, and an unharmed map.
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -131,40 +130,6 @@ TEST_F(LocalMapperFaults, ARobotThatBacksUpIsFollowed) {
     ASSERT_TRUE(fix.is_matched);
   }
   EXPECT_LT(error_m(fix, 0), 0.05);
-}
-
-/// What a slow laser sees that turns meanwhile: one beam after the other, all of a sweep.
-LaserScan swept(SimulatedLaser* laser, double time_s, double sweep_s, Pose2 (*way)(double)) {
-  constexpr int kBeams = 181;
-  LaserScan scan = laser->scan(way(time_s), time_s);
-  for (int i = 0; i < kBeams; ++i) {
-    const auto beam = static_cast<std::size_t>(i);
-    scan.ranges_m[beam] =
-        laser->scan(way(time_s + sweep_s * i / (kBeams - 1)), time_s).ranges_m[beam];
-  }
-  scan.sweep_duration_s = sweep_s;
-  return scan;
-}
-
-Pose2 turning_to_and_fro(double time_s) {
-  return {0.3 * std::sin(0.5 * time_s), 0.0, 2.0 - 2.0 * std::cos(0.8 * time_s)};
-}
-
-TEST(LocalMapper, TurnsWithoutOdometryBendTheSweepsAndStillKeepTheHeading) {
-  std::vector<test::Wall> walls;
-  test::add_box({-2.0, -1.5}, {2.0, 1.5}, &walls);
-  SimulatedLaser laser(walls);
-  LocalMapper mapper;
-  double worst_rad = 0.0;
-  for (int i = 0; i < 150; ++i) {
-    const double time_s = 0.15 * i;
-    const LocalFix fix =
-        mapper.absorb({swept(&laser, time_s, 0.14, turning_to_and_fro), std::nullopt});
-    const Pose2 T_start_robot = turning_to_and_fro(0.0).inverse() * turning_to_and_fro(time_s);
-    worst_rad =
-        std::max(worst_rad, std::abs(turn_between(T_start_robot.theta(), fix.T_lpm_robot.theta())));
-  }
-  EXPECT_LT(worst_rad, 0.10);
 }
 
 }  // namespace
