@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "bench/lab/localmap_ablations.hpp"
 #include "bench/lab/localmap_picture.hpp"
 #include "bench/lab/localmap_relations.hpp"
 #include "bench/lab/localmap_run.hpp"
@@ -63,7 +64,8 @@ OrderedJson json_of(const LocalmapRun& run, const std::optional<RelationReport>&
     json["relations"] = {{"missing", report->missing},
                          {"near_m", report->near_m},
                          {"all", json_of(report->all)},
-                         {"near", json_of(report->near)}};
+                         {"near", json_of(report->near)},
+                         {"near_and_sure", json_of(report->near_and_sure)}};
   }
   return json;
 }
@@ -99,6 +101,7 @@ void print(const LocalmapRun& run, const std::optional<RelationReport>& report, 
   if (report) {
     print(report->all, "(" + grouped(report->missing) + " missing)", out);
     print(report->near, "within " + fixed(report->near_m, 0) + " m of travel", out);
+    print(report->near_and_sure, "of these with both stamps borne by one pose", out);
   }
 }
 
@@ -115,19 +118,22 @@ std::string trajectory_of(const LocalmapRun& run) {
 }
 
 int track(const LocalmapRequest& request, const Streams& streams) {
-  DaemonOptions options = options_from_file(request.config_file);
+  LocalmapSetup setup{options_from_file(request.config_file)};
   if (!request.matcher.empty()) {
     const std::optional<MatcherKind> kind = matcher_kind_of(request.matcher);
     if (!kind) {
       throw Failure(ExitCode::kUsage, "--matcher: either correlative or particles");
     }
-    options.service.lpm.matcher = *kind;
+    setup.options.service.lpm.matcher = *kind;
+  }
+  for (const std::string& part : request.without) {
+    leave_out(part, &setup);
   }
   std::vector<Relation> relations;
   if (!request.relations_file.empty()) {
     relations = read_relations(request.relations_file);
   }
-  const LocalmapRun run = run_localmap(request.log, options);
+  const LocalmapRun run = run_localmap(request.log, setup);
   std::optional<RelationReport> report;
   if (!request.relations_file.empty()) {
     report = judge(relations, run.poses);
@@ -165,6 +171,9 @@ void add_localmap_command(CLI::App& app, const Streams& streams, int* status) {
   file("LOG", &request->log, "CARMEN log, or LCM event log")->required();
   file("--config", &request->config_file, "The daemon's configuration");
   command->add_option("--matcher", request->matcher, "correlative or particles")->type_name("NAME");
+  command->add_option("--without", request->without, "Leave parts out, to see what they are worth")
+      ->delimiter(',')
+      ->type_name("PART,...");
   file("--relations", &request->relations_file, "True relations of poses: report the error");
   file("--png", &request->png_file, "Draw what was seen, and the way");
   file("--trajectory", &request->trajectory_file, "The poses, as lines t x y theta");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "bench/lab/topology_command.hpp"
 
@@ -10,7 +11,8 @@ namespace cairn::lab {
 struct LocalmapRequest {
   std::string log;
   std::string config_file;
-  std::string matcher;  ///< Name of a MatcherKind; empty: as configured.
+  std::string matcher;               ///< Name of a MatcherKind; empty: as configured.
+  std::vector<std::string> without;  ///< Parts for leave_out().
   std::string relations_file;
   std::string png_file;
   std::string trajectory_file;

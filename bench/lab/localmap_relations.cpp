@@ -22,6 +22,7 @@ struct RelationError {
   double translation_m = 0.0;
   double rotation_deg = 0.0;
   double travel_m = 0.0;
+  bool is_sure = true;  // which poses are meant
 };
 
 /// The scan nearest in time, the earlier one of two that are as near.
@@ -56,13 +57,14 @@ ErrorMoments moments_of(const std::vector<double>& values) {
   return moments;
 }
 
-RelationErrors summed_up(const std::vector<RelationError>& errors, double most_travel_m) {
+template <typename Predicate>
+RelationErrors summed_up(const std::vector<RelationError>& errors, const Predicate& counts) {
   std::vector<double> translations_m;
   std::vector<double> rotations_deg;
   double error_m = 0.0;
   double travel_m = 0.0;
   for (const RelationError& error : errors) {
-    if (error.travel_m <= most_travel_m) {
+    if (counts(error)) {
       translations_m.push_back(error.translation_m);
       rotations_deg.push_back(error.rotation_deg);
       error_m += error.translation_m;
@@ -116,7 +118,7 @@ std::vector<Relation> read_relations(const std::filesystem::path& file) {
 }
 
 RelationReport judge(const std::vector<Relation>& relations, std::vector<TrackedPose> track) {
-  // Stamps may repeat; then it must not depend on the order of the log which one is taken.
+  // Where stamps repeat after all, it must not depend on their order which pose is taken.
   std::sort(track.begin(), track.end(), [](const TrackedPose& a, const TrackedPose& b) {
     return std::tuple(a.time_s, a.T_lpm_robot.x(), a.T_lpm_robot.y(), a.T_lpm_robot.theta()) <
            std::tuple(b.time_s, b.T_lpm_robot.x(), b.T_lpm_robot.y(), b.T_lpm_robot.theta());
@@ -133,10 +135,14 @@ RelationReport judge(const std::vector<Relation>& relations, std::vector<Tracked
     const Pose2 found = from->T_lpm_robot.inverse() * to->T_lpm_robot;
     const Pose2 off = relation.T_from_to.inverse() * found;
     errors.push_back({off.translation().norm(), std::abs(off.theta()) * 180.0 / kPi,
-                      std::abs(to->travel_m - from->travel_m)});
+                      std::abs(to->travel_m - from->travel_m),
+                      from->sharing == 1 && to->sharing == 1});
   }
-  report.all = summed_up(errors, 1e300);
-  report.near = summed_up(errors, report.near_m);
+  const auto is_near = [&](const RelationError& e) { return e.travel_m <= report.near_m; };
+  report.all = summed_up(errors, [](const RelationError&) { return true; });
+  report.near = summed_up(errors, is_near);
+  report.near_and_sure =
+      summed_up(errors, [&](const RelationError& e) { return is_near(e) && e.is_sure; });
   return report;
 }
 

@@ -32,12 +32,14 @@ struct RelationErrors {
   double drift_per_travel = 0.0;  ///< Sum of translational errors by sum of travel between.
 };
 
-/// Over all relations, and over those whose ends lie within `near_m` of travel.
+/// Over all relations, over those whose ends lie within `near_m` of travel, and over those of them
+/// whose ends bear stamps that no other pose bears: only there it is sure which pose is meant.
 struct RelationReport {
   std::int64_t missing = 0;  ///< An end has no pose within 30 ms.
   double near_m = 20.0;
   RelationErrors all;
   RelationErrors near;
+  RelationErrors near_and_sure;
 };
 
 /// Source: Kuemmerle et al., "On measuring the accuracy of SLAM algorithms", Autonomous Robots

@@ -27,25 +27,46 @@ double seconds_of(TimePoint time) {
   return static_cast<double>(utime_of(time)) * 1e-6;
 }
 
-/// A trajectory has one pose at a time. Where stamps repeat, those of later messages are wrong.
-std::vector<TrackedPose> first_of_each_stamp(std::vector<TrackedPose> poses) {
-  std::stable_sort(poses.begin(), poses.end(),
-                   [](const TrackedPose& a, const TrackedPose& b) { return a.time_s < b.time_s; });
-  poses.erase(std::unique(poses.begin(), poses.end(),
-                          [](const TrackedPose& a, const TrackedPose& b) {
-                            return a.time_s == b.time_s;  // of whole microseconds, both
-                          }),
-              poses.end());
-  return poses;
+/// The mean of poses, as many as there are of scans if there are any.
+TrackedPose mean_pose(const std::vector<TrackedPose>& poses, std::size_t begin, std::size_t end) {
+  const auto is_of_scan = [](const TrackedPose& pose) { return pose.is_of_scan; };
+  const auto first = poses.begin() + static_cast<std::ptrdiff_t>(begin);
+  const auto last = poses.begin() + static_cast<std::ptrdiff_t>(end);
+  const bool has_scan = std::any_of(first, last, is_of_scan);
+  TrackedPose mean = *std::find_if(
+      first, last, [&](const TrackedPose& pose) { return pose.is_of_scan == has_scan; });
+  const Pose2 T_first_lpm = mean.T_lpm_robot.inverse();
+  Vector2d offset_m = Vector2d::Zero();  // of all from the first of them
+  double turn_rad = 0.0;
+  double further_m = 0.0;
+  double count = 0.0;
+  for (auto pose = first; pose != last; ++pose) {
+    if (pose->is_of_scan == has_scan) {
+      const Pose2 T_first_pose = T_first_lpm * pose->T_lpm_robot;
+      offset_m += T_first_pose.translation();
+      turn_rad += T_first_pose.theta();
+      further_m += pose->travel_m - mean.travel_m;
+      count += 1.0;
+    }
+  }
+  mean.T_lpm_robot =
+      mean.T_lpm_robot * Pose2(offset_m.x() / count, offset_m.y() / count, turn_rad / count);
+  mean.travel_m += further_m / count;
+  mean.sharing = static_cast<int>(end - begin);
+  return mean;
 }
 
 /// The local layer with a clock around its stages.
 class Runner {
  public:
-  Runner(const DaemonOptions& options, LocalmapRun* run)
-      : run_(run), joiner_(options.service.joiner), mapper_(options.service.lpm) {}
+  Runner(const LocalmapSetup& setup, LocalmapRun* run)
+      : run_(run),
+        compensates_motion_(setup.compensates_motion),
+        joiner_(setup.options.service.joiner),
+        mapper_(setup.options.service.lpm) {}
 
   void take(LaserScan scan) {
+    scan.sweep_duration_s = compensates_motion_ ? scan.sweep_duration_s : 0.0;
     joiner_.add(std::move(scan));
     absorb_joined();
   }
@@ -96,7 +117,7 @@ class Runner {
     run_->refused += fix.is_matched || fix.note == FixNote::kFirst ? 0 : 1;
     run_->degenerate += fix.is_degenerate ? 1 : 0;
     if (is_drawn) {
-      keep_walls(joined.scan, fix.T_lpm_robot);
+      keep_walls(joined.scan, run_->track.back().T_lpm_robot);
     }
   }
 
@@ -105,6 +126,8 @@ class Runner {
     TrackedPose here{seconds_of(fix.time), fix.T_lpm_robot, 0.0};
     if (!run_->track.empty()) {
       const TrackedPose& last = run_->track.back();
+      // As dead reckoning has it, which walls may correct.
+      here.T_lpm_robot = last.T_lpm_robot * fix.motion.mean;
       const Vector2d step = here.T_lpm_robot.translation() - last.T_lpm_robot.translation();
       here.travel_m = last.travel_m + step.norm();
       keep_between(between, last, here);
@@ -123,7 +146,7 @@ class Runner {
     const std::vector<Pose2> bent =
         interpolate_travel(T_previous_robot, last.T_lpm_robot, here.T_lpm_robot);
     for (std::size_t i = 0; i + 1 < between.size(); ++i) {
-      run_->poses.push_back({seconds_of(between[i].time), bent[i + 1], here.travel_m});
+      run_->poses.push_back({seconds_of(between[i].time), bent[i + 1], here.travel_m, false});
     }
   }
 
@@ -141,6 +164,7 @@ class Runner {
   }
 
   LocalmapRun* run_;
+  bool compensates_motion_;
   ScanJoiner joiner_;
   BetweenScans between_;
   LocalMapper mapper_;
@@ -149,6 +173,21 @@ class Runner {
 };
 
 }  // namespace
+
+std::vector<TrackedPose> one_pose_per_stamp(std::vector<TrackedPose> poses) {
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const TrackedPose& a, const TrackedPose& b) { return a.time_s < b.time_s; });
+  std::vector<TrackedPose> single;
+  for (std::size_t begin = 0; begin < poses.size();) {
+    std::size_t end = begin + 1;
+    while (end < poses.size() && poses[end].time_s == poses[begin].time_s) {
+      ++end;  // stamps are whole microseconds
+    }
+    single.push_back(end == begin + 1 ? poses[begin] : mean_pose(poses, begin, end));
+    begin = end;
+  }
+  return single;
+}
 
 double StageTimes::mean_ms() const {
   return times_ms.empty() ? 0.0
@@ -182,15 +221,15 @@ DaemonOptions options_from_file(const std::string& config_file) {
   return *options;
 }
 
-LocalmapRun run_localmap(const std::string& log, const DaemonOptions& options) {
+LocalmapRun run_localmap(const std::string& log, const LocalmapSetup& setup) {
   wire::Expected<wire::LogReader> reader = wire::LogReader::open(log);
   if (!reader) {
     throw Failure(ExitCode::kBadData, reader.error());
   }
   LocalmapRun run;
-  Runner runner(options, &run);
+  Runner runner(setup, &run);
   Inlets inlets(
-      to_inlet_options(options),
+      to_inlet_options(setup.options),
       {[&](LaserScan scan) { runner.take(std::move(scan)); },
        [&](const OdometrySample& sample) { runner.take(sample); }, [](const SonarRing&) {}});
   clients::Progress progress(log);
@@ -206,7 +245,7 @@ LocalmapRun run_localmap(const std::string& log, const DaemonOptions& options) {
     throw Failure(ExitCode::kBadData,
                   log + ": no scan in it" + (reader->damage() ? "; " + *reader->damage() : ""));
   }
-  run.poses = first_of_each_stamp(std::move(run.poses));
+  run.poses = one_pose_per_stamp(std::move(run.poses));
   run.damage = reader->damage().value_or("");
   return run;
 }

@@ -5,18 +5,27 @@
 #include <string>
 #include <vector>
 
+#include "bench/lab/localmap_ablations.hpp"
 #include "geometry/pose2.hpp"
-#include "runtime/daemon_options.hpp"
 #include "sensing/scan_joiner.hpp"
 
 namespace cairn::lab {
 
-/// Where the local layer has the robot at one time.
+/// Where the local layer has the robot at one time, by the motions that it told one after the
+/// other.
 struct TrackedPose {
   double time_s = 0.0;
   Pose2 T_lpm_robot;
-  double travel_m = 0.0;  ///< Along the trajectory, from scan to scan, since the first.
+  double travel_m = 0.0;   ///< Along the trajectory, from scan to scan, since the first.
+  bool is_of_scan = true;  ///< And not carried on between two scans by odometry.
+  int sharing = 1;         ///< How many poses bore this stamp, and became this one.
 };
+
+/// A trajectory has one pose at a time. Where a burst of messages bears one stamp, nothing tells
+/// which of them was meant: the mean of their poses errs least, that of the scans' own ones where
+/// there are any. Sorted by time; of equal stamps the result depends on their order only by
+/// rounding.
+[[nodiscard]] std::vector<TrackedPose> one_pose_per_stamp(std::vector<TrackedPose> poses);
 
 /// CPU time per scan of one stage.
 struct StageTimes {
@@ -31,7 +40,7 @@ struct StageTimes {
 struct LocalmapRun {
   std::vector<TrackedPose> track;  ///< At every scan, in the order of the log.
   /// The same, and between two scans at every sample of odometry: its way bent to end at the fix.
-  /// In the order of time; of those with the same stamp only the one that came first.
+  /// In the order of time, one pose per stamp.
   std::vector<TrackedPose> poses;
   std::vector<Vector2d> walls_lpm;             ///< Some of the returns, where the map took them up.
   std::map<std::string, std::int64_t> notes;   ///< How the fixes came about.
@@ -55,6 +64,6 @@ struct LocalmapRun {
 
 /// Runs joiner and local mapper over a log, nothing else. Throws clients::Failure(kBadData) where
 /// there is no log, or no scan in it.
-[[nodiscard]] LocalmapRun run_localmap(const std::string& log, const DaemonOptions& options);
+[[nodiscard]] LocalmapRun run_localmap(const std::string& log, const LocalmapSetup& setup);
 
 }  // namespace cairn::lab

@@ -15,7 +15,7 @@ OptionObject describe(ScrollingMapOptions* map) {
       .number("miss_log_odds", &map->miss_log_odds, {0.41, 3},
               "Taken from a cell a beam passes through.")
       .number("max_log_odds", &map->max_log_odds, {1, 20},
-              "Clamp, so that what has moved away fades.")
+              "Clamp: a wall is gone after (this - 0.4) / miss_log_odds scans through it.")
       .number("max_free_range_m", &map->max_free_range_m, {0.1, 200},
               "A beam without return frees no more than this.");
   return object;
@@ -106,6 +106,13 @@ OptionObject describe(ScanMatchOptions* match) {
   return object;
 }
 
+OptionObject describe(WallOrientationOptions* walls) {
+  OptionObject object("wall_orientation", "What the directions of walls say about the heading.");
+  object.flag("enabled", &walls->enabled,
+              "Dead reckoning is corrected by it, where the heading shows to drift.");
+  return object;
+}
+
 OptionObject describe(ParticleOptions* particles) {
   OptionObject object("particles", "The particle filter, where `matcher` is \"particles\".");
   object
@@ -135,6 +142,7 @@ OptionObject describe(LpmOptions* lpm) {
           "matcher", [lpm] { return static_cast<int>(lpm->matcher); },
           [lpm](int value) { lpm->matcher = static_cast<MatcherKind>(value); },
           {"correlative", "particles"}, "How scans are matched with the local map.")
+      .object(describe(&lpm->wall_orientation))
       .object(describe(&lpm->particles))
       .number("insert_every_m", &lpm->insert_every_m, {0, 5},
               "The map takes a scan after this travel,")

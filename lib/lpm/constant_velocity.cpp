@@ -42,13 +42,25 @@ void ConstantVelocity::learn(const Pose2& motion, double dt_s) {
   };
   climb(speed - speed_m_per_s_, kFirstSpeedVariance, &speed_variance_);
   climb(turn_rate - turn_rate_rad_per_s_, kFirstTurnRateVariance, &turn_rate_variance_);
+  speed_before_m_per_s_ = speed_m_per_s_;
+  turn_rate_before_rad_per_s_ = turn_rate_rad_per_s_;
   speed_m_per_s_ = speed;
   turn_rate_rad_per_s_ = turn_rate;
+  steps_ = std::min(steps_ + 1, 2);
+}
+
+Twist ConstantVelocity::recent() const {
+  if (steps_ < 2) {
+    return {};
+  }
+  return {0.5 * (speed_m_per_s_ + speed_before_m_per_s_), 0.0,
+          0.5 * (turn_rate_rad_per_s_ + turn_rate_before_rad_per_s_)};
 }
 
 void ConstantVelocity::reset() {
   speed_m_per_s_ = 0.0;
   turn_rate_rad_per_s_ = 0.0;
+  steps_ = 0;
   speed_variance_ = kFirstSpeedVariance;
   turn_rate_variance_ = kFirstTurnRateVariance;
 }

@@ -55,7 +55,8 @@ Twist DeadReckoning::twist() const {
       std::abs(T_odom_step_->theta()) <= limits_.max_turn_rate_rad_per_s * dt_s_) {
     return {T_odom_step_->x() / dt_s_, T_odom_step_->y() / dt_s_, T_odom_step_->theta() / dt_s_};
   }
-  return {};  // what matches say of the speed must not bend the next scan: it would feed on itself
+  const bool is_steady = dt_s_ >= kLeastTwistStep_s && dt_s_ <= kLeastTimeStep_s;
+  return !T_odom_step_ && is_steady ? velocity_.recent() : Twist{};
 }
 
 GaussianPose DeadReckoning::predicted() const {

@@ -26,7 +26,8 @@ class DeadReckoning {
 
   /// Takes the next scan.
   void begin(const JoinedScan& joined);
-  /// How the robot moves during the scan; unmoved where odometry does not say.
+  /// How the robot moves during the scan, by odometry; without any, as it moved of late by matches.
+  /// Unmoved where odometry is not to be believed.
   [[nodiscard]] Twist twist() const;
   /// The step to the scan, wide enough to match from. The covariance is positive definite.
   [[nodiscard]] GaussianPose predicted() const;

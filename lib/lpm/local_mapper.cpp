@@ -90,7 +90,8 @@ LocalMapper::LocalMapper(const LpmOptions& options)
     : options_(options),
       map_(options.map),
       matcher_(options.matcher, options.match, options.particles),
-      motion_(options.motion, options.motion_watch) {
+      motion_(options.motion, options.motion_watch),
+      wall_orientation_(options.wall_orientation) {
   CAIRN_CHECK(validate(options).ok());
 }
 
@@ -125,6 +126,7 @@ LocalFix LocalMapper::locate(const JoinedScan& joined) {
     }
   }
   advance(joined, &fix);
+  correct_heading(&fix);
   return fix;
 }
 
@@ -186,6 +188,22 @@ void LocalMapper::advance(const JoinedScan& joined, LocalFix* fix) {
   refusals_ = is_refused(fix->note) ? refusals_ + 1 : 0;
 }
 
+void LocalMapper::correct_heading(LocalFix* fix) {
+  const double correction_rad = heading_drift_.correction_rad();
+  fix->motion.mean = fix->motion.mean * Pose2(0.0, 0.0, correction_rad - heading_correction_rad_);
+  heading_correction_rad_ = correction_rad;
+}
+
+/// Walls are asked where the map takes up a scan: scans between see the same of them.
+void LocalMapper::ask_walls() {
+  if (!options_.wall_orientation.enabled) {
+    return;
+  }
+  if (const auto heading = wall_orientation_.absorb(beams_, T_lpm_robot_)) {
+    heading_drift_.absorb(travel_m_, turn_between(heading->theta_rad, T_lpm_robot_.theta()));
+  }
+}
+
 bool LocalMapper::take_up(const LocalFix& fix) {
   const Pose2 since = T_lpm_drawn_.inverse() * T_lpm_robot_;
   bool is_due = !is_started_ || since.translation().norm() >= options_.insert_every_m ||
@@ -204,6 +222,7 @@ bool LocalMapper::take_up(const LocalFix& fix) {
     return false;
   }
   map_.insert(beams_, T_lpm_robot_, travel_m_);
+  ask_walls();
   T_lpm_drawn_ = T_lpm_robot_;
   uncertainty_ = diagonal(kLeastSigma_m, kLeastSigma_m, kLeastSigma_rad);
   refusals_ = 0;

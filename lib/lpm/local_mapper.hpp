@@ -6,10 +6,12 @@
 #include "geometry/gaussian_pose.hpp"
 #include "grid/occupancy_grid.hpp"
 #include "lpm/dead_reckoning.hpp"
+#include "lpm/heading_drift.hpp"
 #include "lpm/lpm_options.hpp"
 #include "lpm/matcher.hpp"
 #include "lpm/scan_beams.hpp"
 #include "lpm/scrolling_map.hpp"
+#include "lpm/wall_orientation.hpp"
 #include "sensing/scan_joiner.hpp"
 
 namespace cairn {
@@ -39,7 +41,8 @@ struct LocalFix {
   Matrix3d covariance = Matrix3d::Identity();
   /// T_previous_robot: the robot in the frame of the robot at the fix before. Motions of successive
   /// fixes are to be compounded as independent ones: their covariance is the rate at which dead
-  /// reckoning by scan matching drifts.
+  /// reckoning by scan matching drifts. Where walls show that the heading of the lpm frame drifts,
+  /// it is corrected here, and here alone: the map stays as it was drawn.
   GaussianPose motion;
   bool is_matched = false;
   bool is_degenerate = false;  ///< The scan does not fix every direction (a corridor, few returns).
@@ -91,12 +94,17 @@ class LocalMapper {
   [[nodiscard]] ScanMatch best_match(const GaussianPose& predicted);
   void settle(const ScanMatch& match, const GaussianPose& predicted, LocalFix* fix);
   void advance(const JoinedScan& joined, LocalFix* fix);
+  void correct_heading(LocalFix* fix);
+  void ask_walls();
 
   LpmOptions options_;
   ScanBeams beams_;  // of the scan taken last
   ScrollingMap map_;
   Matcher matcher_;
   DeadReckoning motion_;
+  WallOrientation wall_orientation_;
+  HeadingDrift heading_drift_;
+  double heading_correction_rad_ = 0.0;  // that the motions told so far contain
   bool is_started_ = false;
   Pose2 T_lpm_robot_;
   Matrix3d uncertainty_ = Matrix3d::Zero();  // of dead reckoning since the last match, lpm frame

@@ -34,7 +34,7 @@ Status validate(const ParticleOptions& options) {
 
 Status validate(const LpmOptions& options) {
   for (const Status& part : {validate(options.particles), validate(options.motion.learning),
-                             validate(options.motion_watch)}) {
+                             validate(options.motion_watch), validate(options.wall_orientation)}) {
     if (!part.ok()) {
       return part;
     }

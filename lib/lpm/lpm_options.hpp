@@ -7,17 +7,23 @@
 #include "base/result.hpp"
 #include "lpm/motion_model.hpp"
 #include "lpm/motion_watch.hpp"
+#include "lpm/wall_orientation.hpp"
 
 namespace cairn {
 
 /// The scrolling occupancy grid around the robot.
 struct ScrollingMapOptions {
-  double cell_m = 0.05;            ///< [0.01, 0.5]
-  double window_m = 40.0;          ///< Side of the square window. [4, 200]
-  double memory_travel_m = 30.0;   ///< What was not seen for this travel is forgotten. > 0
-  double hit_log_odds = 0.9;       ///< Added to the cell a beam ends in. [0.41, 3]
-  double miss_log_odds = 0.45;     ///< Taken from a cell a beam passes through. [0.41, 3]
-  double max_log_odds = 3.5;       ///< Clamp, so that what has moved away fades. [1, 20]
+  double cell_m = 0.05;           ///< [0.01, 0.5]
+  double window_m = 40.0;         ///< Side of the square window. [4, 200]
+  double memory_travel_m = 30.0;  ///< What was not seen for this travel is forgotten. > 0
+  double hit_log_odds = 0.9;      ///< Added to the cell a beam ends in. [0.41, 3]
+  double miss_log_odds = 0.45;    ///< Taken from a cell a beam passes through. [0.41, 3]
+  /// Clamp, so that what has moved away fades: it is no wall any more after
+  /// ceil((max_log_odds - 0.4) / miss_log_odds) scans through where it stood, 7 with these
+  /// defaults, however often it was seen there. Scans that the map takes up count: one every
+  /// `insert_every_m` or `insert_every_rad`, so 1.4 m of travel; while the robot stands nothing
+  /// fades. [1, 20]
+  double max_log_odds = 3.5;
   double max_free_range_m = 20.0;  ///< A beam without return frees no more than this. > 0
 };
 
@@ -78,6 +84,7 @@ struct LpmOptions {
   MotionWatchOptions motion_watch;
   ScanMatchOptions match;
   MatcherKind matcher = MatcherKind::kCorrelative;
+  WallOrientationOptions wall_orientation;
   ParticleOptions particles;        ///< Where `matcher` says so.
   double insert_every_m = 0.2;      ///< The map takes a scan after this travel, [0, 5]
   double insert_every_rad = 0.2;    ///< or after this turn. [0, 3.2]

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "lpm/lpm_options.hpp"
 #include "lpm/scan_refinement.hpp"
 #include "sensing/laser_scan.hpp"
 

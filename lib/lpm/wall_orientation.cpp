@@ -16,6 +16,12 @@ double folded(double angle_rad) {
   return std::remainder(angle_rad, kQuarterTurn);
 }
 
+/// The same for an angle in (-3 pi/4, 3 pi/4).
+double folded_once(double angle_rad) {
+  const double back = angle_rad > 0.5 * kQuarterTurn ? angle_rad - kQuarterTurn : angle_rad;
+  return back < -0.5 * kQuarterTurn ? back + kQuarterTurn : back;
+}
+
 }  // namespace
 
 Status validate(const WallOrientationOptions& options) {
@@ -42,13 +48,14 @@ Status validate(const WallOrientationOptions& options) {
       .status();
 }
 
-WallOrientation::WallOrientation(const WallOrientationOptions& options) : options_(options) {
+WallOrientation::WallOrientation(const WallOrientationOptions& options)
+    : options_(options), segmenter_(options.segment) {
   CAIRN_CHECK(validate(options).ok());
 }
 
-std::optional<HeadingMeasurement> WallOrientation::absorb(const LaserScan& scan,
+std::optional<HeadingMeasurement> WallOrientation::absorb(const ScanBeams& beams,
                                                           const Pose2& T_lpm_robot) {
-  const std::vector<WallSegment> segments = wall_segments(scan, options_.segment);
+  const std::vector<WallSegment>& segments = segmenter_.split(beams);
   move_to(T_lpm_robot);
   auto measurement = measured(segments, T_lpm_robot.theta());
   if (measurement) {
@@ -193,7 +200,7 @@ void WallOrientation::find_direction() {
     aligned_m = 0.0;
     for (int bin = 0; bin < kBins; ++bin) {
       const double length_m = length_m_[static_cast<std::size_t>(bin)];
-      const double off_rad = folded(direction_of(bin) - direction_rad);
+      const double off_rad = folded_once(direction_of(bin) - direction_rad);
       if (std::abs(off_rad) <= options_.narrow_rad) {
         sum += length_m * off_rad;
         aligned_m += length_m;

@@ -7,12 +7,12 @@
 #include "base/result.hpp"
 #include "geometry/pose2.hpp"
 #include "lpm/wall_segments.hpp"
-#include "sensing/laser_scan.hpp"
 
 namespace cairn {
 
 /// When walls may speak. In the configuration file: the object "lpm.wall_orientation".
 struct WallOrientationOptions {
+  bool enabled = true;  ///< Walls correct dead reckoning.
   WallSegmentOptions segment;
   double canonical_rad = 0.12;       ///< Walls within this of a direction belong to it. (0, 0.26];
                                      ///< the paper: all others differ by more than 15 degrees.
@@ -66,8 +66,7 @@ class WallOrientation {
   /// Takes a scan and the pose it is believed to be taken from, corrected by earlier measurements
   /// or not. Measures where enough walls of scan and building agree. A heading that is wrong by
   /// more than `canonical_rad` finds no walls that agree.
-  /// @pre validate(scan).ok()
-  std::optional<HeadingMeasurement> absorb(const LaserScan& scan, const Pose2& T_lpm_robot);
+  std::optional<HeadingMeasurement> absorb(const ScanBeams& beams, const Pose2& T_lpm_robot);
 
   /// None as long as too few walls were seen, or where they do not agree.
   [[nodiscard]] std::optional<BuildingDirection> direction() const { return direction_; }
@@ -95,6 +94,7 @@ class WallOrientation {
   void find_direction();
 
   WallOrientationOptions options_;
+  WallSegmenter segmenter_;
   std::array<double, kBins> length_m_{};  // by direction modulo 90 degrees
   double seen_m_ = 0.0;
   std::optional<Pose2> T_lpm_gathered_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "lpm/surface_points.hpp"
 
@@ -63,36 +62,37 @@ std::pair<std::size_t, double> farthest_off(const std::vector<SurfacePoint>& poi
 
 }  // namespace
 
-std::vector<WallSegment> wall_segments(const LaserScan& scan, const WallSegmentOptions& options) {
-  const std::vector<SurfacePoint> points = surface_points_of(scan, 0.0, options.max_range_m);
-  std::vector<Stretch> open;  // the next one last
-  std::size_t end = points.size();
-  for (std::size_t i = points.size(); i-- > 0;) {
-    const bool begins = i == 0 || (points[i].p - points[i - 1].p).norm() > options.greatest_gap_m;
+const std::vector<WallSegment>& WallSegmenter::split(const ScanBeams& beams) {
+  surface_points_of(beams, 0.0, options_.max_range_m, &points_);
+  open_.clear();
+  segments_.clear();
+  std::size_t end = points_.size();
+  for (std::size_t i = points_.size(); i-- > 0;) {
+    const bool begins =
+        i == 0 || (points_[i].p - points_[i - 1].p).norm() > options_.greatest_gap_m;
     if (begins) {
-      open.emplace_back(i, end - 1);
+      open_.emplace_back(i, end - 1);
       end = i;
     }
   }
-  std::vector<WallSegment> segments;
-  while (!open.empty()) {
-    const Stretch stretch = open.back();
-    open.pop_back();
-    if (stretch.second - stretch.first + 1 < static_cast<std::size_t>(options.least_returns)) {
+  while (!open_.empty()) {
+    const Stretch stretch = open_.back();
+    open_.pop_back();
+    if (stretch.second - stretch.first + 1 < static_cast<std::size_t>(options_.least_returns)) {
       continue;
     }
-    const auto [corner, off_m] = farthest_off(points, stretch);
-    if (off_m > 2.0 * options.flatness_m) {
-      open.emplace_back(corner, stretch.second);
-      open.emplace_back(stretch.first, corner);
+    const auto [corner, off_m] = farthest_off(points_, stretch);
+    if (off_m > 2.0 * options_.flatness_m) {
+      open_.emplace_back(corner, stretch.second);
+      open_.emplace_back(stretch.first, corner);
       continue;
     }
-    const WallSegment segment = fitted(points, stretch);
-    if (segment.length_m >= options.least_length_m) {
-      segments.push_back(segment);
+    const WallSegment segment = fitted(points_, stretch);
+    if (segment.length_m >= options_.least_length_m) {
+      segments_.push_back(segment);
     }
   }
-  return segments;
+  return segments_;
 }
 
 }  // namespace cairn

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
+#include <utility>
 #include <vector>
 
-#include "sensing/laser_scan.hpp"
+#include "lpm/scan_beams.hpp"
 
 namespace cairn {
 
@@ -22,12 +24,26 @@ struct WallSegment {
   double sigma_rad = 0.0;  ///< Of the direction, from the spread of the returns. > 0
 };
 
-/// The straight pieces of wall in a scan, in the order of the beams: split where a return lies off
-/// the line through the ends, then least squares.
+/// Finds the straight pieces of wall in scans: split where a return lies off the line through the
+/// ends, then least squares. Keeps its memory from scan to scan.
 ///
 /// Source: the iterative end-point fit of Duda and Hart, 1973, as usual in scans (Borges and Aldon,
 /// "Line extraction in 2D range images", 2004).
-[[nodiscard]] std::vector<WallSegment> wall_segments(const LaserScan& scan,
-                                                     const WallSegmentOptions& options = {});
+class WallSegmenter {
+ public:
+  explicit WallSegmenter(const WallSegmentOptions& options = {}) : options_(options) {}
+
+  /// In the order of the beams; valid until the next call.
+  const std::vector<WallSegment>& split(const ScanBeams& beams);
+
+ private:
+  /// Returns [first, last] of the scan.
+  using Stretch = std::pair<std::size_t, std::size_t>;
+
+  WallSegmentOptions options_;
+  std::vector<SurfacePoint> points_;
+  std::vector<Stretch> open_;  // the next one last
+  std::vector<WallSegment> segments_;
+};
 
 }  // namespace cairn

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/lab/localmap_run.hpp"
 #include "bench/lab/program.hpp"
 #include "support/files.hpp"
 
@@ -67,8 +68,65 @@ TEST(LabLocalmap, TracksALogAndJudgesItByRelations) {
   EXPECT_EQ(json["relations"]["missing"], 1);
   EXPECT_EQ(json["relations"]["all"]["relations"], 2);
   EXPECT_LT(json["relations"]["near"]["translation_m"]["max"].get<double>(), 0.05);
+  EXPECT_EQ(json["relations"]["near_and_sure"]["relations"], 2);
   EXPECT_THAT(test::content_of(trajectory), HasSubstr("\n110.000000 "));
   EXPECT_THAT(test::content_of(png), HasSubstr("PNG"));
+}
+
+TrackedPose tracked(double time_s, const Pose2& pose, bool is_of_scan) {
+  return {time_s, pose, pose.x(), is_of_scan, 1};
+}
+
+TEST(LabLocalmap, TakesTheMeanWhereABurstBearsOneStamp) {
+  const std::vector<TrackedPose> poses = one_pose_per_stamp(
+      {tracked(2.0, Pose2(9.0, 0.0, 0.0), true), tracked(1.0, Pose2(1.0, 0.0, 3.1), false),
+       tracked(1.0, Pose2(3.0, 1.0, -3.1), false)});
+  ASSERT_EQ(poses.size(), 2U);
+  EXPECT_EQ(poses[0].sharing, 2);
+  EXPECT_NEAR(poses[0].T_lpm_robot.x(), 2.0, 1e-12);
+  EXPECT_NEAR(poses[0].T_lpm_robot.y(), 0.5, 1e-12);
+  EXPECT_NEAR(std::abs(poses[0].T_lpm_robot.theta()), M_PI, 1e-9);
+  EXPECT_NEAR(poses[0].travel_m, 2.0, 1e-12);
+  EXPECT_EQ(poses[1].sharing, 1);
+  EXPECT_EQ(poses[1].T_lpm_robot, Pose2(9.0, 0.0, 0.0));
+}
+
+TEST(LabLocalmap, TrustsThePosesOfScansMoreThanThoseBetween) {
+  const std::vector<TrackedPose> poses = one_pose_per_stamp(
+      {tracked(1.0, Pose2(0.0, 0.0, 0.0), false), tracked(1.0, Pose2(1.0, 0.0, 0.0), true),
+       tracked(1.0, Pose2(2.0, 0.0, 0.2), true)});
+  ASSERT_EQ(poses.size(), 1U);
+  EXPECT_EQ(poses[0].sharing, 3);
+  EXPECT_NEAR(poses[0].T_lpm_robot.x(), 1.5, 1e-12);
+  EXPECT_NEAR(poses[0].T_lpm_robot.theta(), 0.1, 1e-12);
+}
+
+TEST(LabLocalmap, LeavesPartsOutByName) {
+  const TemporaryFolder folder;
+  const std::string log = (folder / "a.clf").string();
+  write_file(log, carmen_log());
+  for (const char* part : {"wall-orientation", "motion-learning", "motion-compensation",
+                           "degeneracy-handling", "wall-orientation,motion-learning"}) {
+    const Ran ran = run({"localmap", log, "--without", part, "--json"});
+    ASSERT_EQ(ran.status, 0) << ran.errors;
+    EXPECT_NEAR(Json::parse(ran.output)["travel_m"].get<double>(), 2.0, 0.1) << part;
+  }
+  const Ran ran = run({"localmap", log, "--without", "luck"});
+  EXPECT_EQ(ran.status, 64);
+  EXPECT_THAT(ran.errors, HasSubstr("luck"));
+}
+
+TEST(LabLocalmap, EveryPartLeftOutChangesTheSetup) {
+  LocalmapSetup setup;
+  leave_out("motion-compensation", &setup);
+  EXPECT_FALSE(setup.compensates_motion);
+  leave_out("wall-orientation", &setup);
+  EXPECT_FALSE(setup.options.service.lpm.wall_orientation.enabled);
+  leave_out("motion-learning", &setup);
+  EXPECT_FALSE(setup.options.service.lpm.motion.learns);
+  leave_out("degeneracy-handling", &setup);
+  EXPECT_EQ(setup.options.service.lpm.motion.least_sigma_m, 1.0);
+  EXPECT_TRUE(validate(setup.options.service.lpm).ok());
 }
 
 TEST(LabLocalmap, RefusesWhatIsNotThere) {

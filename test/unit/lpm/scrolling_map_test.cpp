@@ -1,5 +1,7 @@
 #include "lpm/scrolling_map.hpp"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 
 #include "simulated_laser.hpp"
@@ -86,6 +88,36 @@ TEST(ScrollingMap, WhatHasMovedAwayFadesWithinNineScans) {
   }
   EXPECT_EQ(state_at(map, {3.05, 0.0}), CellState::kFree);
   EXPECT_EQ(state_at(map, {5.05, 0.0}), CellState::kOccupied);
+}
+
+TEST(ScrollingMap, WhatHasMovedAwayIsAWallForAsManyScansAsStated) {
+  const ScrollingMapOptions options = small_window();
+  const int stated =
+      static_cast<int>(std::ceil((options.max_log_odds - 0.4) / options.miss_log_odds));
+  ASSERT_EQ(stated, 7);
+  for (const int seen : {10, 1000}) {
+    ScrollingMap map(options);
+    for (int i = 0; i < seen; ++i) {
+      map.insert(beam(3.05F), Pose2(), 0.0);
+    }
+    for (int i = 1; i < stated; ++i) {
+      map.insert(beam(5.05F), Pose2(), 0.0);
+    }
+    EXPECT_EQ(state_at(map, {3.05, 0.0}), CellState::kOccupied);
+    map.insert(beam(5.05F), Pose2(), 0.0);
+    EXPECT_NE(state_at(map, {3.05, 0.0}), CellState::kOccupied);
+  }
+}
+
+TEST(ScrollingMap, ADarkSurfaceStaysWhereItSwallowsBeams) {
+  ScrollingMap map(small_window());
+  for (int i = 0; i < 5; ++i) {
+    map.insert(beam(3.05F), Pose2(), 0.0);
+  }
+  for (int i = 0; i < 1000; ++i) {
+    map.insert(beam(std::numeric_limits<float>::infinity()), Pose2(), 0.0);
+  }
+  EXPECT_EQ(state_at(map, {3.05, 0.0}), CellState::kOccupied);
 }
 
 TEST(ScrollingMap, AWallOfGlassStaysWhereAFewBeamsGoThrough) {

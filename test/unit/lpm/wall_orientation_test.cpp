@@ -43,6 +43,12 @@ std::vector<Wall> ring(int sides, double radius_m, double turned_rad) {
   return walls;
 }
 
+ScanBeams beams_of(const LaserScan& scan) {
+  ScanBeams beams;
+  beams.take(scan, {}, 20.0);
+  return beams;
+}
+
 struct Outcome {
   double worst_heading_error_rad = 0.0;  // of the corrected heading, once measured
   double worst_in_sigmas = 0.0;
@@ -63,7 +69,7 @@ Outcome drive(const std::vector<Wall>& walls,
     error_rad += drift_rad_per_step;
     const Pose2 truth = way(i);
     const Pose2 believed(truth.translation(), truth.theta() + error_rad);
-    if (const auto heading = orientation.absorb(laser.scan(truth, 0.2 * i), believed)) {
+    if (const auto heading = orientation.absorb(beams_of(laser.scan(truth, 0.2 * i)), believed)) {
       const double measured_error_rad = turn_between(truth.theta(), heading->theta_rad);
       outcome.worst_in_sigmas =
           std::max(outcome.worst_in_sigmas, std::abs(measured_error_rad) / heading->sigma_rad);
@@ -89,7 +95,9 @@ Pose2 around(int step) {
 TEST(WallSegments, AreTheWallsOfTheRoom) {
   std::vector<Wall> walls;
   test::add_box({-2.0, -3.0}, {4.0, 3.0}, &walls);
-  const auto segments = wall_segments(SimulatedLaser(walls).scan(Pose2(0.0, 0.0, 0.3), 0.0));
+  WallSegmenter segmenter;
+  const std::vector<WallSegment>& segments =
+      segmenter.split(beams_of(SimulatedLaser(walls).scan(Pose2(0.0, 0.0, 0.3), 0.0)));
   ASSERT_THAT(segments, testing::SizeIs(testing::AllOf(testing::Ge(3U), testing::Le(4U))));
   for (const WallSegment& segment : segments) {
     EXPECT_NEAR(std::remainder(segment.direction_rad + 0.3, 0.5 * kPi), 0.0, 0.02);
@@ -99,7 +107,8 @@ TEST(WallSegments, AreTheWallsOfTheRoom) {
 }
 
 TEST(WallSegments, AreNotInAnEmptyScan) {
-  EXPECT_THAT(wall_segments(SimulatedLaser({}).scan(Pose2(), 0.0)), testing::IsEmpty());
+  EXPECT_THAT(WallSegmenter().split(beams_of(SimulatedLaser({}).scan(Pose2(), 0.0))),
+              testing::IsEmpty());
 }
 
 TEST(WallOrientation, SaysNothingInClutter) {
@@ -175,7 +184,7 @@ TEST(WallOrientation, SaysNothingBeforeItHasSeenEnough) {
   WallOrientation orientation;
   SimulatedLaser laser(right_angled_building(0.0));
   for (int i = 0; i < 50; ++i) {  // standing
-    EXPECT_FALSE(orientation.absorb(laser.scan(Pose2(), 0.1 * i), Pose2()).has_value());
+    EXPECT_FALSE(orientation.absorb(beams_of(laser.scan(Pose2(), 0.1 * i)), Pose2()).has_value());
   }
   EXPECT_FALSE(orientation.direction().has_value());
 }
@@ -185,14 +194,14 @@ TEST(WallOrientation, IsSilentWithAHeadingThatIsFarOff) {
   SimulatedLaser laser(right_angled_building(0.0));
   for (int i = 0; i < 300; ++i) {
     const Pose2 pose = up_and_down(i, 0.0);
-    (void)orientation.absorb(laser.scan(pose, 0.1 * i), pose);
+    (void)orientation.absorb(beams_of(laser.scan(pose, 0.1 * i)), pose);
   }
   ASSERT_TRUE(orientation.direction().has_value());
   EXPECT_GT(orientation.direction()->aligned_share, 0.9);
   EXPECT_NEAR(orientation.direction()->direction_rad, 0.0, 0.01);
   const Pose2 truth = up_and_down(10, 0.0);
   const Pose2 wrong(truth.translation(), truth.theta() + 0.4);
-  EXPECT_FALSE(orientation.absorb(laser.scan(truth, 99.0), wrong).has_value());
+  EXPECT_FALSE(orientation.absorb(beams_of(laser.scan(truth, 99.0)), wrong).has_value());
 }
 
 }  // namespace
