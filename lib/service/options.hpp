@@ -4,6 +4,7 @@
 
 #include "global_map/global_map.hpp"
 #include "layout/place_layout.hpp"
+#include "lpm/localisation_health.hpp"
 #include "lpm/lpm_options.hpp"
 #include "lpm/map_matching.hpp"
 #include "place/place_options.hpp"
@@ -17,6 +18,7 @@ namespace cairn {
 struct ServiceOptions {
   JoinerOptions joiner;
   LpmOptions lpm;
+  LocalisationOptions localisation;
   PlaceOptions place;
   MapMatchOptions recognition;  ///< Comparison of two visits' local maps.
   TopologyOptions topology;
