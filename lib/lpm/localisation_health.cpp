@@ -44,6 +44,9 @@ std::string cause_text(const LocalisationHealth& health, const LocalisationOptio
       return "the scans do not fit the local map: was the robot carried, or much moved around "
              "it? " +
              (is_lost ? error : "odometry alone meanwhile");
+    case LocalisationCause::kDoubt:
+      return "the scans fit the local map less well than before something moved the robot: nothing "
+             "is mapped until it is clear where it is";
     case LocalisationCause::kFault:
       return fault_text(health.fault);
     case LocalisationCause::kNoOdometry:
@@ -66,6 +69,7 @@ Status validate(const LocalisationOptions& options) {
       .within("calm_scans", options.calm_scans, 1, 1000)
       .within("found_scans", options.found_scans, 1, 1000)
       .within("new_map_scans", options.new_map_scans, 1, 100'000)
+      .within("doubt_drop", options.doubt_drop, 0.01, 1.0)
       .positive("silence_s", options.silence_s)
       .within("unknown_way_m", options.unknown_way_m, 4.0, 1000.0)
       .positive("unknown_turn_rad", options.unknown_turn_rad)
@@ -100,6 +104,8 @@ std::string_view to_string(LocalisationCause cause) {
       return "blocked sensor";
     case LocalisationCause::kNotMatched:
       return "not matched";
+    case LocalisationCause::kDoubt:
+      return "doubtful match";
     case LocalisationCause::kFault:
       return "fault";
     case LocalisationCause::kNoOdometry:

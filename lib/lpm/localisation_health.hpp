@@ -15,17 +15,19 @@ namespace cairn {
 ///
 /// Source: Simhon and Dudek, IROS 1998: the bounds e_min and e_max of the accumulated error.
 struct LocalisationOptions {
-  double error_min_m = 0.25;      ///< e_min: with less, the robot knows where it is. [0.01, 0.9]
-  double error_max_m = 1.0;       ///< e_max: with more, it is lost. [0.3, 100], > e_min
-  int patience_scans = 3;         ///< Refused scans in a row that are worth a word. [1, 1000]
-  int calm_scans = 10;            ///< Good scans in a row that end what was said. [1, 1000]
-  int found_scans = 5;            ///< Matched scans in a row that a lost robot needs. [1, 1000]
-  int new_map_scans = 20;         ///< Refused scans in a row, not for a blocked sensor, after which
-                                  ///< a lost robot starts a new local map. [1, 100000]
-  double silence_s = 5.0;         ///< A sensor that says nothing for longer, and longer than usual,
-                                  ///< has fallen out. > 0
-  double unknown_way_m = 5.0;     ///< Sigma of the way from the old local map to a new one.
-                                  ///< [4, 1000]
+  double error_min_m = 0.25;   ///< e_min: with less, the robot knows where it is. [0.01, 0.9]
+  double error_max_m = 1.0;    ///< e_max: with more, it is lost. [0.3, 100], > e_min
+  int patience_scans = 3;      ///< Refused scans in a row that are worth a word. [1, 1000]
+  int calm_scans = 10;         ///< Good scans in a row that end what was said. [1, 1000]
+  int found_scans = 5;         ///< Matched scans in a row that a lost robot needs. [1, 1000]
+  int new_map_scans = 20;      ///< Refused scans in a row, not for a blocked sensor, after which
+                               ///< a lost robot starts a new local map. [1, 100000]
+  double doubt_drop = 0.15;    ///< Matched scans are doubted when after a bump, a lift or a refused
+                               ///< scan their score is so much less than usual. (0, 1]
+  double silence_s = 5.0;      ///< A sensor that says nothing for longer, and longer than usual,
+                               ///< has fallen out. > 0
+  double unknown_way_m = 5.0;  ///< Sigma of the way from the old local map to a new one.
+                               ///< [4, 1000]
   double unknown_turn_rad = 1.5;  ///< Sigma of the turn from the old local map to a new one. > 0
 };
 
@@ -51,6 +53,7 @@ enum class LocalisationCause : std::uint8_t {
   kNoScans,        ///< Odometry comes, scans do not.
   kBlockedSensor,  ///< Scans come, with hardly a return in them.
   kNotMatched,     ///< Scans do not fit the local map.
+  kDoubt,          ///< They fit it less well than before, since the robot was bumped or carried.
   kFault,          ///< Odometry and scans disagree; see LocalisationHealth::fault.
   kNoOdometry,     ///< Scans come, odometry does not: the robot is taken to go on as it went.
 };

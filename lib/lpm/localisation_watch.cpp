@@ -67,6 +67,7 @@ void LocalisationWatch::heard_scan(TimePoint time) {
 void LocalisationWatch::observe(const LocalFix& fix, bool has_odometry) {
   health_.uses_odometry = has_odometry;
   guessed_scans_ = has_odometry ? 0 : guessed_scans_ + 1;
+  doubt(fix);
   accumulate(fix);
   count_runs(fix);
   note_fault(fix.fault);
@@ -77,11 +78,26 @@ void LocalisationWatch::observe(const LocalFix& fix, bool has_odometry) {
   }
 }
 
+void LocalisationWatch::doubt(const LocalFix& fix) {
+  const bool was_moved = fix.note == FixNote::kContradiction || fix.fault == MotionFault::kBump ||
+                         fix.fault == MotionFault::kCarried;
+  const bool is_worse = fix.score < usual_score_ - options_.doubt_drop;
+  if (was_moved && is_worse) {
+    is_doubted_ = true;
+  }
+  trusted_scans_ = is_doubted_ && fix.is_matched && !is_worse ? trusted_scans_ + 1 : 0;
+  is_doubted_ = is_doubted_ && trusted_scans_ < options_.patience_scans;
+  is_doubtful_ = is_doubted_ && fix.is_matched;
+  if (fix.is_matched && !is_doubted_) {
+    usual_score_ += (usual_score_ > 0.0 ? kUsualGain : 1.0) * (fix.score - usual_score_);
+  }
+}
+
 void LocalisationWatch::accumulate(const LocalFix& fix) {
   if (fix_) {
     since_reliable_ = compounded(since_reliable_, fix.motion);
   }
-  if (fix.note == FixNote::kFirst || (fix.is_matched && !fix.is_degenerate)) {
+  if (fix.note == FixNote::kFirst || (fix.is_matched && !fix.is_degenerate && !is_doubtful_)) {
     since_reliable_ = {};
     reliable_m2_ = variance_m2(fix.covariance);
   }
@@ -90,9 +106,9 @@ void LocalisationWatch::accumulate(const LocalFix& fix) {
 
 void LocalisationWatch::count_runs(const LocalFix& fix) {
   refused_scans_ = is_refused(fix.note) ? refused_scans_ + 1 : 0;
-  matched_scans_ = fix.is_matched ? matched_scans_ + 1 : 0;
+  matched_scans_ = fix.is_matched && !is_doubtful_ ? matched_scans_ + 1 : 0;
   if (fix.note != FixNote::kBlockedSensor) {
-    unfitting_scans_ = is_refused(fix.note) ? unfitting_scans_ + 1 : 0;
+    unfitting_scans_ = is_refused(fix.note) || is_doubtful_ ? unfitting_scans_ + 1 : 0;
   }
 }
 
@@ -110,7 +126,7 @@ void LocalisationWatch::note_fault(MotionFault fault) {
 }
 
 bool LocalisationWatch::needs_new_map() const {
-  return is_lost_ && unfitting_scans_ >= options_.new_map_scans &&
+  return (is_lost_ || is_doubtful_) && unfitting_scans_ >= options_.new_map_scans &&
          fix_->note != FixNote::kBlockedSensor;
 }
 
@@ -125,6 +141,9 @@ LocalisationCause LocalisationWatch::cause_of_trouble() const {
   if (refused_scans_ >= options_.patience_scans) {
     return fix_->note == FixNote::kBlockedSensor ? LocalisationCause::kBlockedSensor
                                                  : LocalisationCause::kNotMatched;
+  }
+  if (is_doubtful_) {
+    return LocalisationCause::kDoubt;
   }
   if (health_.error_m > options_.error_min_m) {
     return LocalisationCause::kErrorGrown;
@@ -181,6 +200,9 @@ void LocalisationWatch::started_new_map() {
   unfitting_scans_ = 0;
   matched_scans_ = 0;
   good_scans_ = 0;
+  usual_score_ = 0.0;
+  is_doubted_ = false;
+  is_doubtful_ = false;
   health_.error_m = 0.0;
   health_.state = LocalisationState::kLost;
   health_.cause = LocalisationCause::kNewMap;

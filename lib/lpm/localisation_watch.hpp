@@ -33,8 +33,10 @@ class Silence {
 /// A fix is reliable where the scan was matched and fixes every direction. Between reliable fixes
 /// motions are compounded; beyond e_max the robot is lost, below e_min and with some matched scans
 /// in a row it is found. While it is lost the local map must not change and no place be looked for,
-/// since both would be told of where the robot is not; `may_map` and `may_see_places` say so. A map
-/// that nothing fits any more cannot be the way out: after a while `needs_new_map`.
+/// since both would be told of where the robot is not; `may_map` and `may_see_places` say so. The
+/// same holds while matches are doubted: a robot set down elsewhere in a room often finds a pose
+/// that fits so-so, and a map that took up its scans there would soon fit better, and be wrong. A
+/// map that nothing fits any more cannot be the way out: after a while `needs_new_map`.
 ///
 /// Source: Simhon and Dudek, IROS 1998, on when a robot is lost.
 class LocalisationWatch {
@@ -54,13 +56,14 @@ class LocalisationWatch {
   [[nodiscard]] const LocalisationHealth& health() const { return health_; }
   [[nodiscard]] bool is_lost() const { return is_lost_; }
   /// Whether the map may take up the scan of the last fix.
-  [[nodiscard]] bool may_map() const { return !is_lost_ || is_map_new_; }
-  [[nodiscard]] bool may_see_places() const { return !is_lost_; }
+  [[nodiscard]] bool may_map() const { return (!is_lost_ || is_map_new_) && !is_doubtful_; }
+  [[nodiscard]] bool may_see_places() const { return !is_lost_ && !is_doubtful_; }
   /// The robot is lost, and for long nothing has fitted the map.
   [[nodiscard]] bool needs_new_map() const;
 
  private:
   void accumulate(const LocalFix& fix);
+  void doubt(const LocalFix& fix);
   void count_runs(const LocalFix& fix);
   void note_fault(MotionFault fault);
   void lose(LocalisationCause cause);
@@ -76,11 +79,15 @@ class LocalisationWatch {
   GaussianPose since_reliable_;  // motion
   double reliable_m2_ = 0.0;     // variance of the last reliable fix
   bool is_lost_ = false;
-  bool is_map_new_ = false;                                    // and the robot not yet found in it
-  int refused_scans_ = 0;                                      // in a row
-  int unfitting_scans_ = 0;                                    // in a row, blocked ones aside
-  int matched_scans_ = 0;                                      // in a row
-  int guessed_scans_ = 0;                                      // in a row, without odometry
+  double usual_score_ = 0.0;  // of matched scans; 0 before the first
+  bool is_doubted_ = false;   // that the robot is where the map has it
+  bool is_doubtful_ = false;  // the last fix, for that
+  int trusted_scans_ = 0;     // in a row, while it is doubted
+  bool is_map_new_ = false;   // and the robot not yet found in it
+  int refused_scans_ = 0;     // in a row
+  int unfitting_scans_ = 0;   // in a row, blocked ones aside
+  int matched_scans_ = 0;     // in a row
+  int guessed_scans_ = 0;     // in a row, without odometry
   std::array<int, LocalisationHealth::kFaults> calm_scans_{};  // in a row, without that fault
   int good_scans_ = 0;                                         // in a row, with no trouble at all
 };

@@ -151,6 +151,41 @@ TEST_F(LocalisationWatchTest, AFaultIsCountedWhenItBeginsAndHeldUntilItIsCalm) {
   EXPECT_EQ(watch_.health().count(MotionFault::kSlip), 2);
 }
 
+TEST_F(LocalisationWatchTest, AMatchThatIsWorseSinceABumpIsDoubtedAndInTheEndNeedsANewMap) {
+  LocalFix good = matched_fix();
+  good.score = 0.97;
+  observe(good, 30);
+  LocalFix so_so = good;
+  so_so.score = 0.7;
+  observe(so_so, 3);
+  EXPECT_EQ(state(), State::kTracking) << "a worse score alone may be clutter";
+  observe(good, 30);
+  LocalFix bump = so_so;
+  bump.fault = MotionFault::kBump;
+  observe(bump);
+  EXPECT_EQ(watch_.health().cause, Cause::kDoubt);
+  EXPECT_FALSE(watch_.may_map());
+  observe(so_so, options_.new_map_scans - 2);
+  EXPECT_FALSE(watch_.needs_new_map());
+  observe(so_so);
+  EXPECT_TRUE(watch_.needs_new_map());
+}
+
+TEST_F(LocalisationWatchTest, AMatchThatIsAsGoodAsEverAfterABumpIsTrusted) {
+  LocalFix good = matched_fix();
+  good.score = 0.97;
+  observe(good, 30);
+  LocalFix bump = good;
+  bump.fault = MotionFault::kBump;
+  observe(bump);
+  EXPECT_TRUE(watch_.may_map());
+  bump.score = 0.7;
+  observe(bump);
+  EXPECT_FALSE(watch_.may_map());
+  observe(good, options_.patience_scans);
+  EXPECT_TRUE(watch_.may_map()) << "doubt ends with good matches";
+}
+
 TEST_F(LocalisationWatchTest, AWrongMountingOutlastsSmallerFaultsAndSaysWhatToCheck) {
   observe(matched_fix());
   observe(faulty_fix(MotionFault::kLaserReversed));
