@@ -82,6 +82,9 @@ void print_localisation(std::ostream& out, const cairn_lcm::status_t& status) {
            count_of(status.local_map_restarts, "new local maps, ") +
            count_of(status.scans_not_mapped, "scans not mapped"));
   line(out, "faults", faults_text(status));
+  if (!status.relocalised.empty()) {
+    line(out, "relocalised", printable(status.relocalised));
+  }
 }
 
 void print_inputs(std::ostream& out, const cairn_lcm::status_t& status) {

@@ -95,6 +95,8 @@ Json localisation_of(const cairn_lcm::status_t& status) {
           {"is_using_odometry", status.is_using_odometry != 0},
           {"no_odometry_s", number(status.no_odometry_s)},
           {"no_scans_s", number(status.no_scans_s)},
+          {"relocalisations", status.relocalisations},
+          {"relocalised", status.relocalised},
           {"fault", status.fault},
           {"faults",
            {{"slips", status.slips},

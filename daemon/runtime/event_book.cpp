@@ -113,6 +113,10 @@ std::vector<cairn_lcm::place_event_t> EventBook::note(const LocalisationHealth& 
               is_lost ? context.reason : "in the local map: scans fit it again")};
 }
 
+std::vector<cairn_lcm::place_event_t> EventBook::note(const Relocalisation& found) {
+  return {add(Kind::LOCALIZED, found.time, -1, found.place, to_text(found))};
+}
+
 std::vector<cairn_lcm::place_event_t> EventBook::after(std::int64_t number) const {
   std::vector<cairn_lcm::place_event_t> events;
   std::copy_if(

@@ -11,6 +11,7 @@
 #include "lpm/localisation_health.hpp"
 #include "place/place_detector.hpp"
 #include "service/map_state.hpp"
+#include "service/relocaliser.hpp"
 #include "topology/extend_report.hpp"
 
 namespace cairn {
@@ -38,6 +39,9 @@ class EventBook {
   std::vector<cairn_lcm::place_event_t> note(const LocalisationHealth& before,
                                              const LocalisationHealth& after,
                                              const EventContext& context);
+
+  /// That a lost robot was found in the map.
+  std::vector<cairn_lcm::place_event_t> note(const Relocalisation& found);
 
   [[nodiscard]] std::int64_t newest() const { return newest_; }
   /// Those after the given number that are still kept.

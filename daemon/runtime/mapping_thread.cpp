@@ -130,6 +130,7 @@ void MappingThread::report(const Updates& updates, double update_ms) {
   }
   report.events = updates.events;
   report.extensions = updates.extensions;
+  report.relocalised = updates.relocalised;
   report.update_ms = update_ms;
   // A map that could not be journalled is not made known.
   const bool may_publish = report.journal_trouble.empty();

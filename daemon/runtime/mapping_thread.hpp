@@ -45,6 +45,7 @@ struct MappingReport {
   JoinerCounters joiner;
   LocalisationHealth health;
   std::int64_t local_map_restarts = 0;
+  std::optional<Relocalisation> relocalised;
   std::optional<MapAnswer> answer;
   double update_ms = 0.0;  ///< To take the reading in.
   std::string journal_trouble;

@@ -90,6 +90,7 @@ void Publisher::publish(const MappingReport& report) {
     publish(*report.answer);
   }
   publish_health(report);
+  publish_relocalisation(report);
   for (const PlaceEvent& event : report.events) {
     for (const cairn_lcm::place_event_t& message : events_.note(event, state_.get())) {
       bus_.publish("CAIRN_PLACE_EVENT", message);
@@ -107,6 +108,14 @@ void Publisher::publish_health(const MappingReport& report) {
   for (const cairn_lcm::place_event_t& message :
        events_.note(before, health_, {time, reason_of(health_, localisation_)})) {
     bus_.publish("CAIRN_PLACE_EVENT", message);
+  }
+}
+
+void Publisher::publish_relocalisation(const MappingReport& report) {
+  if (report.relocalised) {
+    for (const cairn_lcm::place_event_t& message : events_.note(*report.relocalised)) {
+      bus_.publish("CAIRN_PLACE_EVENT", message);
+    }
   }
 }
 

@@ -77,6 +77,7 @@ class Publisher {
               const std::string& reason);
   void publish_state(const std::shared_ptr<const MapState>& state);
   void publish_health(const MappingReport& report);
+  void publish_relocalisation(const MappingReport& report);
   void publish_local_map(const wire::ReplicatedGrid& local_map);
 
   wire::Bus& bus_;

@@ -26,8 +26,9 @@ double seconds_since(Clock::time_point start) {
 struct Tally {
   std::int64_t scans = 0;
   std::int64_t matched = 0;
-  std::map<std::string, std::int64_t> notes;    ///< How the fixes came about.
-  std::map<std::string, std::int64_t> health;   ///< How often each state began.
+  std::map<std::string, std::int64_t> notes;   ///< How the fixes came about.
+  std::map<std::string, std::int64_t> health;  ///< How often each state began.
+  std::vector<std::string> relocalised;
   std::map<std::string, std::int64_t> skipped;  ///< Lines and channels that carry nothing for us.
   std::int64_t first_utime = 0;
   std::int64_t last_utime = 0;
@@ -41,6 +42,9 @@ void count(const Updates& updates, Tally* tally) {
     ++tally->scans;
     tally->matched += scan.fix.is_matched ? 1 : 0;
     ++tally->notes[to_string(scan.fix.note)];
+  }
+  if (updates.relocalised) {
+    tally->relocalised.push_back(to_text(*updates.relocalised));
   }
 }
 
@@ -131,6 +135,7 @@ Json localisation_of(const Tally& tally, const MappingService& service) {
   }
   return {{"states", tally.health},
           {"faults", faults},
+          {"relocalised", tally.relocalised},
           {"times_lost", health.times_lost},
           {"local_map_restarts", service.local_map_restarts()},
           {"scans_not_mapped", health.scans_not_mapped}};
@@ -206,6 +211,9 @@ void print_text(const Json& summary) {
                            localisation["scans_not_mapped"].dump() +
                            " scans not mapped; states: " + counts_text(localisation["states"]));
   line("faults", counts_text(localisation["faults"]));
+  for (const Json& found : localisation["relocalised"]) {
+    line("", found.get<std::string>());
+  }
   line("stamps", number("out_of_order") + " out of order (used), " +
                      number("duplicate_scans_dropped") + " duplicates and " +
                      number("stray_stamps_dropped") + " stray stamps (dropped), " +

@@ -14,6 +14,7 @@
 #include "service/map_state.hpp"
 #include "service/operator_log.hpp"
 #include "service/options.hpp"
+#include "service/relocaliser.hpp"
 #include "topology/hypothesis_tree.hpp"
 
 namespace cairn {
@@ -25,7 +26,8 @@ struct Updates {
   std::vector<Visit> visits;             ///< Closed ones, which extended the map.
   std::vector<ExtendReport> extensions;  ///< One for each visit but the very first.
   bool is_map_changed = false;
-  bool is_health_changed = false;  ///< MappingService::health() has news.
+  std::optional<Relocalisation> relocalised;  ///< A lost robot was found in the map.
+  bool is_health_changed = false;             ///< MappingService::health() has news.
 };
 
 /// The stages of the pipeline, for whoever measures them.

@@ -10,6 +10,7 @@
 #include "place/place_options.hpp"
 #include "planning/path.hpp"
 #include "sensing/scan_joiner.hpp"
+#include "service/relocaliser.hpp"
 #include "topology/topology_options.hpp"
 
 namespace cairn {
@@ -19,6 +20,7 @@ struct ServiceOptions {
   JoinerOptions joiner;
   LpmOptions lpm;
   LocalisationOptions localisation;
+  RelocalisationOptions relocalisation;
   PlaceOptions place;
   MapMatchOptions recognition;  ///< Comparison of two visits' local maps.
   TopologyOptions topology;

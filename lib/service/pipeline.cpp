@@ -31,6 +31,7 @@ MappingService::Pipeline::Pipeline(const ServiceOptions& options, StageObserver 
       joiner_(options.joiner),
       local_mapper_(options.lpm),
       watch_(options.localisation),
+      relocaliser_(options.relocalisation),
       place_detector_(options.place),
       matcher_(experience_, options.recognition),
       tree_(options.topology, evidence()) {}
@@ -57,6 +58,7 @@ Updates MappingService::Pipeline::perceive_joined() {
     PerceivedScan perceived{std::make_shared<const LaserScan>(std::move(joined->scan)), fix,
                             joined->T_odom_robot, std::move(between)};
     since_anchor_ = compounded(since_anchor_, fix.motion);
+    relocalise(perceived, &updates);
     experience_.add(perceived);
     updates.scans.push_back(std::move(perceived));
     if (watch_.may_see_places()) {
@@ -86,9 +88,19 @@ LocalFix MappingService::Pipeline::localise(const JoinedScan& joined, Updates* u
   return fix;
 }
 
+void MappingService::Pipeline::relocalise(const PerceivedScan& scan, Updates* updates) {
+  std::optional<Relocalisation> found = relocaliser_.absorb(*scan.scan, scan.fix.motion);
+  if (found) {
+    found->number = ++relocalisations_;
+    found->place = nearest_place(found->T_global_robot.mean.translation(), &found->distance_m);
+    updates->relocalised = *found;
+  }
+}
+
 void MappingService::Pipeline::take_leave_of_map(LocalFix* fix, Updates* updates) {
   close_open_visits(updates);
   enter(Stage::kLocalMapping);
+  relocaliser_.start(trajectory());
   const double way_m = options_.localisation.unknown_way_m;
   const double turn_rad = options_.localisation.unknown_turn_rad;
   fix->motion.covariance.diagonal() += Eigen::Vector3d(way_m, way_m, turn_rad).cwiseAbs2();

@@ -70,6 +70,8 @@ class MappingService::Pipeline {
   LocalFix localise(const JoinedScan& joined, Updates* updates);
   /// The local map is another one: what was seen of places so far is of the old one.
   void take_leave_of_map(LocalFix* fix, Updates* updates);
+  /// Looks in the best map for a robot that has lost its local map.
+  void relocalise(const PerceivedScan& scan, Updates* updates);
   void detect_places(const LocalFix& fix, Updates* updates);
   /// One step of experience: the tree grows, the best hypothesis is laid out.
   void take_up(Visit visit, Updates* updates);
@@ -85,6 +87,9 @@ class MappingService::Pipeline {
   /// The tree has been grown anew.
   void take_in(const AssertionReport& report);
   void lay_out();
+  /// Every scan so far in the global frame.
+  [[nodiscard]] std::vector<PosedScan> trajectory() const;
+  [[nodiscard]] int nearest_place(const Vector2d& p_global, double* distance_m) const;
   /// From here on the robot's pose is this place's, and the motions since.
   void anchor_robot();
   void tell_best_map(MapState* state) const;
@@ -97,6 +102,8 @@ class MappingService::Pipeline {
   LocalMapper local_mapper_;
   LocalisationWatch watch_;
   LocalisationHealth told_health_;
+  Relocaliser relocaliser_;
+  std::int64_t relocalisations_ = 0;
   PlaceDetector place_detector_;
   Experience experience_;
   VisitMatcher matcher_;

@@ -258,6 +258,7 @@ inline cairn_lcm::status_t sample() {
   message.localisation_cause = "fault";
   message.localisation_reason = "slip: the wheels spin";
   message.fault = "slip";
+  message.relocalised = "relocalised near place 3";
   return message;
 }
 

@@ -82,5 +82,15 @@ TEST(EventBook, TellsOnceThatTheRobotIsLostAndOnceThatItIsFound) {
   EXPECT_EQ(book.after(1).front().kind_name, "LOCALIZED");
 }
 
+TEST(EventBook, TellsARelocalisationWithItsPlace) {
+  EventBook book(1);
+  Relocalisation found;
+  found.place = 3;
+  const auto told = book.note(found);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told.front().kind_name, "LOCALIZED");
+  EXPECT_EQ(told.front().place_id, 3);
+}
+
 }  // namespace
 }  // namespace cairn

@@ -24,7 +24,8 @@ class SimulatedDrive {
  public:
   using Disturbance = std::function<void(Readings*)>;
 
-  SimulatedDrive() : walls_(furnished_room()), laser_(walls_) {}
+  explicit SimulatedDrive(std::vector<Wall> walls = furnished_room())
+      : walls_(std::move(walls)), laser_(walls_) {}
 
   /// One laser in the middle that looks ahead, unless told otherwise.
   void mount_lasers(std::vector<Pose2> T_robot_lasers) {
@@ -35,10 +36,13 @@ class SimulatedDrive {
   /// Goes on so many steps along the circle.
   void go(int steps, const Disturbance& disturbance = {}) {
     for (int i = 0; i < steps; ++i) {
-      T_world_robot_ = on_a_circle(++step_);
+      T_odom_robot_ = on_a_circle(++step_);
+      T_world_robot_ = T_world_odom_ * T_odom_robot_;
       read(disturbance);
     }
   }
+  /// Lifted up and set down elsewhere; the wheels do not notice.
+  void be_carried_by(const Pose2& T_world_odom) { T_world_odom_ = T_world_odom; }
   /// Stays where it is.
   void stand(int steps, const Disturbance& disturbance = {}) {
     for (int i = 0; i < steps; ++i) {
@@ -53,6 +57,7 @@ class SimulatedDrive {
   [[nodiscard]] const std::set<std::string>& reasons() const { return reasons_; }
   [[nodiscard]] const std::vector<PerceivedScan>& perceived() const { return perceived_; }
   [[nodiscard]] const std::vector<Visit>& visits() const { return visits_; }
+  [[nodiscard]] const std::vector<Relocalisation>& relocalised() const { return relocalised_; }
   [[nodiscard]] const Pose2& T_world_robot() const { return T_world_robot_; }
 
   /// Where the robot truly is, in the lpm frame.
@@ -88,10 +93,16 @@ class SimulatedDrive {
   }
 
  private:
+  static ServiceOptions options() {
+    ServiceOptions options;
+    options.relocalisation.looks = true;
+    return options;
+  }
+
   void read(const Disturbance& disturbance) {
     time_s_ += 0.1;
     Readings readings;
-    readings.odometry = OdometrySample{stamp(), T_world_robot_};
+    readings.odometry = OdometrySample{stamp(), T_odom_robot_};
     for (std::size_t i = 0; i < T_robot_lasers_.size(); ++i) {
       readings.scans.push_back(laser_.scan(T_world_robot_ * T_robot_lasers_[i], time_s_));
       readings.scans.back().T_robot_laser = T_robot_lasers_[i];
@@ -116,6 +127,9 @@ class SimulatedDrive {
     for (Visit& visit : updates.visits) {
       visits_.push_back(std::move(visit));
     }
+    if (updates.relocalised) {
+      relocalised_.push_back(*updates.relocalised);
+    }
     if (updates.is_health_changed) {
       reasons_.insert(std::string(to_string(health().state)) + ": " +
                       reason_of(health(), LocalisationOptions()));
@@ -139,13 +153,16 @@ class SimulatedDrive {
   std::vector<Wall> walls_;
   SimulatedLaser laser_;
   std::vector<Pose2> T_robot_lasers_ = {Pose2()};
-  MappingService service_{ServiceOptions()};
+  MappingService service_{options()};
   int step_ = 0;
   double time_s_ = 0.0;
+  Pose2 T_world_odom_;
+  Pose2 T_odom_robot_ = on_a_circle(0);
   Pose2 T_world_robot_ = on_a_circle(0);
   std::set<std::string> reasons_;
   std::vector<PerceivedScan> perceived_;
   std::vector<Visit> visits_;
+  std::vector<Relocalisation> relocalised_;
 };
 
 }  // namespace cairn::test
