@@ -211,9 +211,7 @@ void print_text(const Json& summary) {
                            localisation["scans_not_mapped"].dump() +
                            " scans not mapped; states: " + counts_text(localisation["states"]));
   line("faults", counts_text(localisation["faults"]));
-  for (const Json& found : localisation["relocalised"]) {
-    line("", found.get<std::string>());
-  }
+  line("relocalised", counts_text(localisation["relocalised"]));
   line("stamps", number("out_of_order") + " out of order (used), " +
                      number("duplicate_scans_dropped") + " duplicates and " +
                      number("stray_stamps_dropped") + " stray stamps (dropped), " +
