@@ -4,6 +4,7 @@
 #include <charconv>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 
 #include <png.h>
@@ -122,7 +123,9 @@ GreyPicture read_grey_picture(const std::filesystem::path& file) {
   if (!stream.is_open()) {
     refuse(file, "cannot be read");
   }
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  std::ostringstream content;
+  content << stream.rdbuf();
+  const std::string bytes = content.str();
   return bytes.rfind("P5", 0) == 0 ? read_pgm(file, bytes) : PngReader().read(file, bytes);
 }
 

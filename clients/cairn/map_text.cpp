@@ -50,6 +50,43 @@ std::string count_of(std::int64_t count, const char* what) {
   return std::to_string(count) + " " + what;
 }
 
+std::string faults_text(const cairn_lcm::status_t& status) {
+  const std::pair<std::int64_t, const char*> faults[] = {
+      {status.slips, "slips"},
+      {status.carryings, "liftings or pushes"},
+      {status.odometry_stalls, "odometry stalls"},
+      {status.scan_stalls, "scan stalls"},
+      {status.bumps, "bumps"},
+      {status.teleports, "odometry jumps"},
+      {status.laser_reversals, "times the laser looked backward"},
+      {status.laser_inversions, "times the laser was upside down"}};
+  std::string text;
+  for (const auto& [count, what] : faults) {
+    if (count > 0) {
+      text += (text.empty() ? "" : ", ") + count_of(count, what);
+    }
+  }
+  return text.empty() ? "none" : text;
+}
+
+void print_localisation(std::ostream& out, const cairn_lcm::status_t& status) {
+  line(
+      out, "localisation",
+      printable(status.localisation_name) +
+          (status.localisation_reason.empty() ? "" : ": " + printable(status.localisation_reason)));
+  line(out, "error",
+       fixed(status.localisation_error_m, 2) + " m; lost above " +
+           fixed(status.localisation_error_max_m, 2) + " m, found below " +
+           fixed(status.localisation_error_min_m, 2) + " m; " +
+           count_of(status.times_lost, "times lost, ") +
+           count_of(status.local_map_restarts, "new local maps, ") +
+           count_of(status.scans_not_mapped, "scans not mapped"));
+  line(out, "faults", faults_text(status));
+  if (!status.relocalised.empty()) {
+    line(out, "relocalised", printable(status.relocalised));
+  }
+}
+
 void print_inputs(std::ostream& out, const cairn_lcm::status_t& status) {
   line(out, "scans",
        count_of(status.scans_received, "received, ") + count_of(status.scans_mapped, "mapped, ") +
@@ -58,7 +95,8 @@ void print_inputs(std::ostream& out, const cairn_lcm::status_t& status) {
            count_of(status.scans_out_of_order, "out of order; last ") + age(status.scan_age_ms));
   line(out, "odometry",
        count_of(status.odometry_received, "received, ") +
-           count_of(status.odometry_refused, "refused; last ") + age(status.odometry_age_ms));
+           count_of(status.odometry_refused, "refused; last ") + age(status.odometry_age_ms) +
+           (status.is_using_odometry != 0 ? "; used" : "; none used: constant velocity"));
   line(out, "bus",
        count_of(status.decode_errors, "unsound messages, ") +
            count_of(status.unknown_types, "of unknown type, ") +
@@ -87,6 +125,7 @@ void print_status(std::ostream& out, const cairn_lcm::status_t& status) {
   line(out, "state",
        printable(status.state_name) +
            (status.reason.empty() ? "" : ": " + printable(status.reason)));
+  print_localisation(out, status);
   line(out, "localized", status.is_localized != 0 ? "yes" : "no");
   line(out, "map",
        count_of(status.map_id, "") + "at revision " + std::to_string(status.map_revision) +

@@ -81,6 +81,34 @@ Json counters_of(const cairn_lcm::status_t& status) {
           {"rss_mb", number(status.rss_mb)}};
 }
 
+Json localisation_of(const cairn_lcm::status_t& status) {
+  return {{"state", status.localisation},
+          {"state_name", status.localisation_name},
+          {"cause", status.localisation_cause},
+          {"reason", status.localisation_reason},
+          {"error_m", number(status.localisation_error_m)},
+          {"error_min_m", number(status.localisation_error_min_m)},
+          {"error_max_m", number(status.localisation_error_max_m)},
+          {"times_lost", status.times_lost},
+          {"local_map_restarts", status.local_map_restarts},
+          {"scans_not_mapped", status.scans_not_mapped},
+          {"is_using_odometry", status.is_using_odometry != 0},
+          {"no_odometry_s", number(status.no_odometry_s)},
+          {"no_scans_s", number(status.no_scans_s)},
+          {"relocalisations", status.relocalisations},
+          {"relocalised", status.relocalised},
+          {"fault", status.fault},
+          {"faults",
+           {{"slips", status.slips},
+            {"carryings", status.carryings},
+            {"odometry_stalls", status.odometry_stalls},
+            {"scan_stalls", status.scan_stalls},
+            {"bumps", status.bumps},
+            {"teleports", status.teleports},
+            {"laser_reversals", status.laser_reversals},
+            {"laser_inversions", status.laser_inversions}}}};
+}
+
 }  // namespace
 
 Json to_json(const cairn_lcm::status_t& status) {
@@ -104,6 +132,7 @@ Json to_json(const cairn_lcm::status_t& status) {
                {"is_guarantee_kept", status.is_guarantee_kept != 0},
                {"guarantee_given_up_at", status.guarantee_given_up_at},
                {"blamed", status.blamed}};
+  json["localisation"] = localisation_of(status);
   json.update(counters_of(status));
   return json;
 }

@@ -51,6 +51,7 @@ class Daemon {
         publisher_(
             bus,
             new_boot_id(),
+            options.service.localisation,
             [this](const cairn_lcm::plan_request_t& request) { return order_plan(request); },
             [this](MapRequest request) { mapping_.ask(std::move(request)); }),
         inlets_(to_inlet_options(options),

@@ -100,6 +100,23 @@ std::vector<cairn_lcm::place_event_t> EventBook::note(const MapState& before,
   return events;
 }
 
+std::vector<cairn_lcm::place_event_t> EventBook::note(const LocalisationHealth& before,
+                                                      const LocalisationHealth& after,
+                                                      const EventContext& context) {
+  const bool was_lost = before.state == LocalisationState::kLost;
+  const bool is_lost = after.state == LocalisationState::kLost;
+  if (after.times_lost == before.times_lost && was_lost == is_lost) {
+    return {};
+  }
+  const std::int32_t kind = is_lost ? std::int32_t{Kind::LOST} : std::int32_t{Kind::LOCALIZED};
+  return {add(kind, context.time, -1, -1,
+              is_lost ? context.reason : "in the local map: scans fit it again")};
+}
+
+std::vector<cairn_lcm::place_event_t> EventBook::note(const Relocalisation& found) {
+  return {add(Kind::LOCALIZED, found.time, -1, found.place, to_text(found))};
+}
+
 std::vector<cairn_lcm::place_event_t> EventBook::after(std::int64_t number) const {
   std::vector<cairn_lcm::place_event_t> events;
   std::copy_if(

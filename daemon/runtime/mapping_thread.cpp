@@ -74,18 +74,15 @@ void MappingThread::carry_out(SensorReading reading) {
   const Clock::time_point start = Clock::now();
   const Updates updates = engine_->take(std::move(reading));
   const std::chrono::duration<double, std::milli> spent = Clock::now() - start;
-  if (!updates.scans.empty()) {
+  if (!updates.scans.empty() || updates.is_health_changed) {
     report(updates, spent.count());
   }
 }
 
 void MappingThread::carry_out(const MapRequest& request) {
   const std::int64_t revision = engine_->service().revision();
-  MappingReport report;
+  MappingReport report = own_report();
   report.answer = std::visit([this](const auto& one) { return answered(one); }, request);
-  report.map_id = engine_->map_id();
-  report.joiner = engine_->service().joiner_counters();
-  report.journal_trouble = engine_->journal_trouble();
   if (engine_->service().revision() != revision) {
     report.state = engine_->service().state();
   }
@@ -114,18 +111,27 @@ void MappingThread::commit_when_due() {
   }
 }
 
-void MappingThread::report(const Updates& updates, double update_ms) {
+MappingReport MappingThread::own_report() const {
+  const MappingService& service = engine_->service();
   MappingReport report;
+  report.map_id = engine_->map_id();
+  report.joiner = service.joiner_counters();
+  report.health = service.health();
+  report.local_map_restarts = service.local_map_restarts();
+  report.journal_trouble = engine_->journal_trouble();
+  return report;
+}
+
+void MappingThread::report(const Updates& updates, double update_ms) {
+  MappingReport report = own_report();
   const MappingService& service = engine_->service();
   for (const PerceivedScan& scan : updates.scans) {
     report.fixes.push_back({scan.fix, service.T_global_robot()});
   }
   report.events = updates.events;
   report.extensions = updates.extensions;
-  report.map_id = engine_->map_id();
-  report.joiner = service.joiner_counters();
+  report.relocalised = updates.relocalised;
   report.update_ms = update_ms;
-  report.journal_trouble = engine_->journal_trouble();
   // A map that could not be journalled is not made known.
   const bool may_publish = report.journal_trouble.empty();
   if (may_publish && (updates.is_map_changed || is_due(last_state_, options_.state_every_s))) {

@@ -43,6 +43,9 @@ struct MappingReport {
   std::shared_ptr<const wire::ReplicatedGrid> local_map;  ///< Comes with a state.
   std::int64_t map_id = 0;
   JoinerCounters joiner;
+  LocalisationHealth health;
+  std::int64_t local_map_restarts = 0;
+  std::optional<Relocalisation> relocalised;
   std::optional<MapAnswer> answer;
   double update_ms = 0.0;  ///< To take the reading in.
   std::string journal_trouble;
@@ -93,6 +96,8 @@ class MappingThread {
   void finish_pause();
   void commit_when_due();
   void report(const Updates& updates, double update_ms);
+  /// A report of what the engine knows of itself.
+  [[nodiscard]] MappingReport own_report() const;
 
   std::unique_ptr<Engine> engine_;
   Options options_;

@@ -44,6 +44,7 @@ std::int64_t steady_us() {
 
 Publisher::Publisher(wire::Bus& bus,
                      std::int64_t boot_id,
+                     const LocalisationOptions& localisation,
                      OrderPlan order_plan,
                      OrderMapping order_mapping)
     : bus_(bus),
@@ -58,7 +59,8 @@ Publisher::Publisher(wire::Bus& bus,
           [this](const cairn_lcm::map_delta_t& delta) {
             bus_.publish(delta.what == What::LPM ? "CAIRN_LPM" : "CAIRN_MAP_DELTA", delta);
           }),
-      events_(boot_id) {
+      events_(boot_id),
+      localisation_(localisation) {
   const auto serve = [this](std::int32_t what, auto to_message) {
     replication_.serve(what, [this, to_message]() -> std::optional<wire::Document> {
       if (state_ == nullptr) {
@@ -87,6 +89,8 @@ void Publisher::publish(const MappingReport& report) {
   if (report.answer) {
     publish(*report.answer);
   }
+  publish_health(report);
+  publish_relocalisation(report);
   for (const PlaceEvent& event : report.events) {
     for (const cairn_lcm::place_event_t& message : events_.note(event, state_.get())) {
       bus_.publish("CAIRN_PLACE_EVENT", message);
@@ -94,6 +98,24 @@ void Publisher::publish(const MappingReport& report) {
   }
   if (report.local_map != nullptr) {
     publish_local_map(*report.local_map);
+  }
+}
+
+void Publisher::publish_health(const MappingReport& report) {
+  const LocalisationHealth before = std::exchange(health_, report.health);
+  const TimePoint time =
+      report.fixes.empty() ? time_of_utime(wall_utime()) : report.fixes.back().fix.time;
+  for (const cairn_lcm::place_event_t& message :
+       events_.note(before, health_, {time, reason_of(health_, localisation_)})) {
+    bus_.publish("CAIRN_PLACE_EVENT", message);
+  }
+}
+
+void Publisher::publish_relocalisation(const MappingReport& report) {
+  if (report.relocalised) {
+    for (const cairn_lcm::place_event_t& message : events_.note(*report.relocalised)) {
+      bus_.publish("CAIRN_PLACE_EVENT", message);
+    }
   }
 }
 

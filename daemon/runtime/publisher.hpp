@@ -32,7 +32,11 @@ class Publisher {
   using OrderMapping = std::function<void(MapRequest)>;
 
   /// @param bus must outlive this object
-  Publisher(wire::Bus& bus, std::int64_t boot_id, OrderPlan order_plan, OrderMapping order_mapping);
+  Publisher(wire::Bus& bus,
+            std::int64_t boot_id,
+            const LocalisationOptions& localisation,
+            OrderPlan order_plan,
+            OrderMapping order_mapping);
 
   /// Listens to requests and to the status of other daemons.
   /// @return false where LCM refuses
@@ -72,6 +76,8 @@ class Publisher {
               const std::string& name,
               const std::string& reason);
   void publish_state(const std::shared_ptr<const MapState>& state);
+  void publish_health(const MappingReport& report);
+  void publish_relocalisation(const MappingReport& report);
   void publish_local_map(const wire::ReplicatedGrid& local_map);
 
   wire::Bus& bus_;
@@ -84,6 +90,8 @@ class Publisher {
   /// By client and request: since when.
   std::map<std::pair<std::int64_t, std::int32_t>, std::int64_t> under_way_us_;
   EventBook events_;
+  LocalisationOptions localisation_;
+  LocalisationHealth health_;
   std::shared_ptr<const MapState> state_;
   std::int64_t foreign_daemons_ = 0;
   std::int64_t foreign_boot_id_ = 0;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "runtime/engine.hpp"
+#include "runtime/health_status.hpp"
 #include "runtime/map_maker.hpp"
 #include "runtime/progress.hpp"
 #include "wire/log_reader.hpp"
@@ -25,7 +26,9 @@ double seconds_since(Clock::time_point start) {
 struct Tally {
   std::int64_t scans = 0;
   std::int64_t matched = 0;
-  std::map<std::string, std::int64_t> notes;    ///< How the fixes came about.
+  std::map<std::string, std::int64_t> notes;   ///< How the fixes came about.
+  std::map<std::string, std::int64_t> health;  ///< How often each state began.
+  std::vector<std::string> relocalised;
   std::map<std::string, std::int64_t> skipped;  ///< Lines and channels that carry nothing for us.
   std::int64_t first_utime = 0;
   std::int64_t last_utime = 0;
@@ -40,6 +43,9 @@ void count(const Updates& updates, Tally* tally) {
     tally->matched += scan.fix.is_matched ? 1 : 0;
     ++tally->notes[to_string(scan.fix.note)];
   }
+  if (updates.relocalised) {
+    tally->relocalised.push_back(to_text(*updates.relocalised));
+  }
 }
 
 class Replay {
@@ -48,9 +54,8 @@ class Replay {
       : options_(options),
         engine_(engine),
         inlets_(to_inlet_options(options),
-                {[this](LaserScan scan) { count(engine_->take(std::move(scan)), &tally_); },
-                 [this](OdometrySample sample) { count(engine_->take(sample), &tally_); },
-                 [](const SonarRing&) {}}) {}
+                {[this](LaserScan scan) { take(std::move(scan)); },
+                 [this](OdometrySample sample) { take(sample); }, [](const SonarRing&) {}}) {}
 
   /// @return false where the log is damaged or cannot be opened; tally().troubles says why
   bool run(const std::string& log) {
@@ -105,12 +110,36 @@ class Replay {
   [[nodiscard]] const Inlets& inlets() const { return inlets_; }
 
  private:
+  void take(SensorReading reading) {
+    const Updates updates = engine_->take(std::move(reading));
+    count(updates, &tally_);
+    if (updates.is_health_changed) {
+      ++tally_.health[health_code(engine_->service().health())];
+    }
+  }
+
   const DaemonOptions& options_;
   Engine* engine_;
   Tally tally_;
   Progress progress_;
   Inlets inlets_;
 };
+
+Json localisation_of(const Tally& tally, const MappingService& service) {
+  const LocalisationHealth& health = service.health();
+  Json faults = Json::object();
+  for (std::size_t i = 1; i < health.fault_counts.size(); ++i) {
+    if (health.fault_counts[i] > 0) {
+      faults[std::string(to_string(static_cast<MotionFault>(i)))] = health.fault_counts[i];
+    }
+  }
+  return {{"states", tally.health},
+          {"faults", faults},
+          {"relocalised", tally.relocalised},
+          {"times_lost", health.times_lost},
+          {"local_map_restarts", service.local_map_restarts()},
+          {"scans_not_mapped", health.scans_not_mapped}};
+}
 
 Json summary_of(const Replay& replay, const Engine& engine, double spent_s) {
   const MappingService& service = engine.service();
@@ -130,6 +159,7 @@ Json summary_of(const Replay& replay, const Engine& engine, double spent_s) {
   return {{"scans", tally.scans},
           {"matched", tally.matched},
           {"fixes", tally.notes},
+          {"localisation", localisation_of(tally, service)},
           {"duplicate_scans_dropped", joiner.duplicates},
           {"out_of_order", joiner.out_of_order},
           {"stray_stamps_dropped", joiner.strays},
@@ -175,6 +205,13 @@ void print_text(const Json& summary) {
   const auto number = [&summary](const char* key) { return summary[key].dump(); };
   line("scans", number("scans") + ", matched " + number("matched") + " (" +
                     counts_text(summary["fixes"]) + ")");
+  const Json& localisation = summary["localisation"];
+  line("localisation", "lost " + localisation["times_lost"].dump() + " times, " +
+                           localisation["local_map_restarts"].dump() + " new local maps, " +
+                           localisation["scans_not_mapped"].dump() +
+                           " scans not mapped; states: " + counts_text(localisation["states"]));
+  line("faults", counts_text(localisation["faults"]));
+  line("relocalised", counts_text(localisation["relocalised"]));
   line("stamps", number("out_of_order") + " out of order (used), " +
                      number("duplicate_scans_dropped") + " duplicates and " +
                      number("stray_stamps_dropped") + " stray stamps (dropped), " +

@@ -7,6 +7,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include "runtime/health_status.hpp"
 #include "runtime/publisher.hpp"
 #include "runtime/version.hpp"
 #include "wire/udp_drops.hpp"
@@ -42,6 +43,13 @@ void StatusBoard::took(const MappingReport& report) {
     latency_.add(report.update_ms);
   }
   joiner_ = report.joiner;
+  log_health(health_, report.health, options_.service.localisation);
+  health_ = report.health;
+  local_map_restarts_ = report.local_map_restarts;
+  if (report.relocalised) {
+    relocalised_ = report.relocalised;
+    spdlog::info("{}", to_text(*relocalised_));
+  }
 }
 
 bool StatusBoard::note_journal(const std::string& trouble) {
@@ -75,8 +83,8 @@ std::pair<int, std::string> StatusBoard::state(bool hears_another_daemon) const 
   if (now - last_scan_us_ > kSensorOld_us) {
     return {State::DEGRADED, "no scan for more than a second"};
   }
-  if (odometry_received_ == 0) {
-    return {State::DEGRADED, "no odometry: the robot's motion is guessed from the scans"};
+  if (health_.state == LocalisationState::kLost || health_.state == LocalisationState::kDegraded) {
+    return {State::DEGRADED, "localisation " + health_text(health_, options_.service.localisation)};
   }
   return {State::MAPPING, ""};
 }
@@ -101,6 +109,10 @@ cairn_lcm::status_t StatusBoard::status(bool hears_another_daemon,
   status.scans_refused = static_cast<std::int64_t>(joiner_.duplicates + joiner_.strays);
   status.odometry_received = odometry_received_;
   add_inlet_counters(inlets, &status);
+  add_health(health_, options_.service.localisation, &status);
+  status.local_map_restarts = local_map_restarts_;
+  status.relocalisations = relocalised_ ? relocalised_->number : 0;
+  status.relocalised = relocalised_ ? to_text(*relocalised_) : "";
   status.udp_drops = wire::own_udp_drops().value_or(-1);
   status.scan_age_ms = age_ms(last_scan_us_);
   status.odometry_age_ms = age_ms(last_odometry_us_);

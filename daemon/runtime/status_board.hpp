@@ -22,6 +22,7 @@ class StatusBoard {
   explicit StatusBoard(const DaemonOptions& options) : options_(options) {}
 
   void took(const SensorReading& reading);
+  /// Logs a change of the localisation's health.
   void took(const MappingReport& report);
   /// Logs it where it is new. @return whether it is
   bool note_journal(const std::string& trouble);
@@ -47,6 +48,9 @@ class StatusBoard {
   bool is_stopping_ = false;
   std::string journal_trouble_;
   JoinerCounters joiner_;
+  LocalisationHealth health_;
+  std::int64_t local_map_restarts_ = 0;
+  std::optional<Relocalisation> relocalised_;
   Latency latency_;
 };
 

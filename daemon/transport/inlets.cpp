@@ -52,13 +52,17 @@ Status validate(const InletOptions& options) {
 }
 
 Inlets::Inlets(const InletOptions& options, Sinks sinks) {
-  for (const LaserChannelOptions& laser : options.lasers) {
+  for (std::size_t i = 0; i < options.lasers.size(); ++i) {
+    const LaserChannelOptions& laser = options.lasers[i];
     add_channel(
         laser.channel, kLaserQueue,
         [laser](const std::uint8_t* bytes, std::size_t size) {
           return scan_of(bytes, size, laser);
         },
-        sinks.scan);
+        [sink = sinks.scan, number = static_cast<int>(i)](LaserScan scan) {
+          scan.laser = number;
+          sink(std::move(scan));
+        });
   }
   for (const std::string& channel : options.odometry_channels) {
     add_channel(channel, kOdometryQueue, odometry_of, sinks.odometry);

@@ -17,6 +17,56 @@ OptionObject describe(JoinerOptions* joiner) {
   return object;
 }
 
+OptionObject describe(LocalisationOptions* localisation) {
+  OptionObject object("localisation",
+                      "When the pose in the local map is relied on, and when the robot is lost.");
+  object
+      .number("error_min_m", &localisation->error_min_m, {0.01, 0.9},
+              "e_min: with less accumulated error a lost robot is found.")
+      .number("error_max_m", &localisation->error_max_m, {0.3, 100},
+              "e_max: with more the robot is lost. Greater than error_min_m.")
+      .integer("patience_scans", &localisation->patience_scans, {1, 1000},
+               "Refused scans in a row that are worth a word.")
+      .integer("calm_scans", &localisation->calm_scans, {1, 1000},
+               "Good scans in a row that end what was said.")
+      .integer("found_scans", &localisation->found_scans, {1, 1000},
+               "Matched scans in a row that a lost robot needs.")
+      .integer("new_map_scans", &localisation->new_map_scans, {1, 100000},
+               "Refused scans in a row after which a lost robot starts a new local map.")
+      .number(
+          "doubt_drop", &localisation->doubt_drop, {0.01, 1},
+          "Matches are doubted when after a bump, a lift or a refused scan their score is so much "
+          "less than usual.")
+      .number("silence_s", &localisation->silence_s, {0.1, 3600},
+              "A sensor that says nothing for longer, and longer than usual, has fallen out.")
+      .number("unknown_way_m", &localisation->unknown_way_m, {4, 1000},
+              "Sigma of the way from the old local map to a new one.")
+      .number("unknown_turn_rad", &localisation->unknown_turn_rad, {0.1, 10},
+              "Sigma of the turn from the old local map to a new one.");
+  return object;
+}
+
+OptionObject describe(RelocalisationOptions* relocalisation) {
+  OptionObject object(
+      "relocalisation",
+      "Looking for a robot that has lost its local map in all that it has seen. What "
+      "comes of it is said, and the hypotheses decide.");
+  object.flag("looks", &relocalisation->looks, "If not, the robot only goes on in a new local map.")
+      .number("cell_m", &relocalisation->cell_m, {0.05, 1}, "Of the map that is searched.")
+      .integer("max_cells", &relocalisation->max_cells, {1000, 2e7},
+               "A larger map is not searched: it takes 22 bytes a cell.")
+      .number("draw_every_m", &relocalisation->draw_every_m, {0, 10},
+              "Travel between scans that are drawn.")
+      .integer("max_searches", &relocalisation->max_searches, {1, 100000},
+               "Searches of the whole map before it is given up.")
+      .number("accept_travel_m", &relocalisation->accept_travel_m, {0, 1000},
+              "So much travel must be explained,")
+      .number("accept_score", &relocalisation->accept_score, {0, 1}, "with this mean score,")
+      .number("accept_margin", &relocalisation->accept_margin, {0, 1},
+              "so much better than by any other pose.");
+  return object;
+}
+
 OptionObject describe(ContinuationOptions* continuation) {
   OptionObject object("continuation", "When a path goes on through a place.");
   object
@@ -194,9 +244,16 @@ std::vector<OptionObject> describe(ServiceOptions* options) {
   OptionObject topology = describe(&options->topology);
   topology.text("evidence", &options->evidence,
                 "What speaks for or against a hypothesis: place_match, layout; \"\" is strict.");
-  return {describe(&options->joiner),      describe(&options->lpm), describe(&options->place),
-          describe(&options->recognition), std::move(topology),     describe(&options->layout),
-          describe(&options->global_map),  describe(&options->path)};
+  return {describe(&options->joiner),
+          describe(&options->lpm),
+          describe(&options->localisation),
+          describe(&options->relocalisation),
+          describe(&options->place),
+          describe(&options->recognition),
+          std::move(topology),
+          describe(&options->layout),
+          describe(&options->global_map),
+          describe(&options->path)};
 }
 
 }  // namespace cairn

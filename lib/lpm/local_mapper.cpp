@@ -103,6 +103,7 @@ LocalFix LocalMapper::absorb(const JoinedScan& joined) {
 
 LocalFix LocalMapper::locate(const JoinedScan& joined) {
   motion_.begin(joined);
+  laser_ = joined.scan.laser;
   beams_.take(joined.scan, motion_.twist(), options_.map.max_free_range_m);
   matcher_.take(beams_);
   LocalFix fix;
@@ -205,29 +206,43 @@ void LocalMapper::ask_walls() {
 }
 
 bool LocalMapper::take_up(const LocalFix& fix) {
-  const Pose2 since = T_lpm_drawn_.inverse() * T_lpm_robot_;
-  bool is_due = !is_started_ || since.translation().norm() >= options_.insert_every_m ||
-                std::abs(since.theta()) >= options_.insert_every_rad;
+  const auto drawn = T_lpm_drawn_.find(laser_);
+  bool is_due = drawn == T_lpm_drawn_.end();
+  if (!is_due) {
+    const Pose2 since = drawn->second.inverse() * T_lpm_robot_;
+    is_due = since.translation().norm() >= options_.insert_every_m ||
+             std::abs(since.theta()) >= options_.insert_every_rad;
+  }
   if (fix.note == FixNote::kBlockedSensor) {
     return false;
   }
   if (fix.note == FixNote::kContradiction) {
     is_due = refusals_ >= options_.refusals_before_restart;
     if (is_due) {
-      map_.clear();
-      ++restarts_;
+      start_anew();
+      return true;
     }
   }
-  if (!is_due) {
-    return false;
+  if (is_due) {
+    draw();
   }
+  return is_due;
+}
+
+void LocalMapper::start_anew() {
+  map_.clear();
+  T_lpm_drawn_.clear();
+  ++restarts_;
+  draw();
+}
+
+void LocalMapper::draw() {
   map_.insert(beams_, T_lpm_robot_, travel_m_);
   ask_walls();
-  T_lpm_drawn_ = T_lpm_robot_;
+  T_lpm_drawn_[laser_] = T_lpm_robot_;
   uncertainty_ = diagonal(kLeastSigma_m, kLeastSigma_m, kLeastSigma_rad);
   refusals_ = 0;
   is_started_ = true;
-  return true;
 }
 
 std::size_t LocalMapper::memory_bytes() const {
@@ -236,14 +251,17 @@ std::size_t LocalMapper::memory_bytes() const {
 
 void LocalMapper::restore(const LaserScan& scan,
                           const Pose2& T_lpm_robot,
-                          const std::optional<Pose2>& T_odom_robot) {
+                          const std::optional<Pose2>& T_odom_robot,
+                          bool takes_up) {
   if (is_started_) {
     travel_m_ += (T_lpm_robot.translation() - T_lpm_robot_.translation()).norm();
   }
-  map_.insert(scan, T_lpm_robot, travel_m_);
+  if (takes_up) {
+    map_.insert(scan, T_lpm_robot, travel_m_);
+    T_lpm_drawn_[scan.laser] = T_lpm_robot;
+  }
   is_started_ = true;
   T_lpm_robot_ = T_lpm_robot;
-  T_lpm_drawn_ = T_lpm_robot;
   uncertainty_ = diagonal(kLeastSigma_m, kLeastSigma_m, kLeastSigma_rad);
   motion_.start(scan.time, T_odom_robot);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 
 #include "geometry/gaussian_pose.hpp"
@@ -74,6 +75,8 @@ class LocalMapper {
   /// The second half, with the fix of the first: the map takes up that scan if it should.
   /// @return whether it did
   bool take_up(const LocalFix& fix);
+  /// The other second half: the map is started afresh with that scan, whatever the fix.
+  void start_anew();
 
   /// The occupancy grid around the robot, in the lpm frame. Its origin moves by whole cells.
   [[nodiscard]] const OccupancyGrid& grid() const { return map_.grid(); }
@@ -85,10 +88,12 @@ class LocalMapper {
   /// Puts back a scan remembered with its pose, without matching, to rebuild the map after a
   /// restart: oldest first. The next scan absorbed is looked for where odometry says that the robot
   /// has gone since the scan restored last; without odometry, around that scan's pose.
+  /// @param takes_up false where the map did not take up that scan: the robot was there, no more
   /// @pre validate(scan).ok()
   void restore(const LaserScan& scan,
                const Pose2& T_lpm_robot,
-               const std::optional<Pose2>& T_odom_robot);
+               const std::optional<Pose2>& T_odom_robot,
+               bool takes_up = true);
 
  private:
   [[nodiscard]] ScanMatch best_match(const GaussianPose& predicted);
@@ -96,6 +101,7 @@ class LocalMapper {
   void advance(const JoinedScan& joined, LocalFix* fix);
   void correct_heading(LocalFix* fix);
   void ask_walls();
+  void draw();
 
   LpmOptions options_;
   ScanBeams beams_;  // of the scan taken last
@@ -108,7 +114,8 @@ class LocalMapper {
   bool is_started_ = false;
   Pose2 T_lpm_robot_;
   Matrix3d uncertainty_ = Matrix3d::Zero();  // of dead reckoning since the last match, lpm frame
-  Pose2 T_lpm_drawn_;                        // where the map took its last scan
+  std::map<int, Pose2> T_lpm_drawn_;         // by laser: where the map took its last scan
+  int laser_ = 0;                            // of the scan taken last
   double travel_m_ = 0.0;
   int refusals_ = 0;
   std::int64_t restarts_ = 0;

@@ -169,10 +169,20 @@ MotionFault MotionWatch::flip_fault() const {
                                                    : MotionFault::kNone;
 }
 
-double MotionWatch::alarm(const Step& sum, int component) const {
+double MotionWatch::alarm(const Step& sum, int component, double lag) const {
   const double least = component == kTurn ? options_.least_rad : options_.least_m;
   const double sigma = std::sqrt(sum.variance[component] + sum.match_variance[component]);
-  return std::abs(sum.error[component]) / std::max(least, options_.alarm_sigmas * sigma);
+  return std::max(0.0, std::abs(sum.error[component]) - lag) /
+         std::max(least, options_.alarm_sigmas * sigma);
+}
+
+double MotionWatch::largest_step(int component) const {
+  double largest = 0.0;
+  for (const Step& step : window_) {
+    largest =
+        std::max({largest, std::abs(step.odometry[component]), std::abs(step.matched[component])});
+  }
+  return largest;
 }
 
 MotionWatch::Step MotionWatch::windowed() const {
@@ -195,7 +205,8 @@ MotionFault MotionWatch::sudden_fault(const Step& step) const {
   alone.match_variance *= 2.0;
   for (const int component : {kSlide, kTurn}) {
     const bool is_more = std::abs(step.matched[component]) > std::abs(step.odometry[component]);
-    if (is_more && alarm(alone, component) > 1.0 && alarm(before, component) < kGoesOn) {
+    const double lag = std::max(largest_step(component), std::abs(step.odometry[component]));
+    if (is_more && alarm(alone, component, lag) > 1.0 && alarm(before, component, 0.0) < kGoesOn) {
       return MotionFault::kBump;
     }
   }
@@ -204,13 +215,16 @@ MotionFault MotionWatch::sudden_fault(const Step& step) const {
 
 MotionFault MotionWatch::lasting_fault() const {
   const Step sum = windowed();
+  const auto alarm_of = [&](int component) {
+    return alarm(sum, component, largest_step(component));
+  };
   int worst = kDrive;
   for (const int component : {kSlide, kTurn}) {
-    worst = alarm(sum, component) > alarm(sum, worst) ? component : worst;
+    worst = alarm_of(component) > alarm_of(worst) ? component : worst;
   }
   const double mean_error = sum.error[worst] / static_cast<double>(window_.size());
   const bool goes_on = window_.back().error[worst] * mean_error > kGoesOn * mean_error * mean_error;
-  if (alarm(sum, worst) <= 1.0 || !goes_on) {
+  if (alarm_of(worst) <= 1.0 || !goes_on) {
     return MotionFault::kNone;
   }
   if (frozen_steps_ >= kRepeats && was_driving_ && worst != kSlide) {

@@ -91,7 +91,10 @@ class MotionWatch {
   void note_repeats(const Step& step, bool is_scan_repeated);
   void note_agreement(const Step& step);
   /// How alarming a disagreement is: a fault above 1.
-  [[nodiscard]] double alarm(const Step& sum, int component) const;
+  /// @param lag what is excused: one of the two may lag behind by a step
+  [[nodiscard]] double alarm(const Step& sum, int component, double lag) const;
+  /// The largest motion of a step of the window.
+  [[nodiscard]] double largest_step(int component) const;
   [[nodiscard]] MotionFault sudden_fault(const Step& step) const;
   [[nodiscard]] MotionFault lasting_fault() const;
   [[nodiscard]] MotionFault flip_fault() const;

@@ -22,6 +22,7 @@ struct LaserScan {
   double max_range_m = 0.0;         ///< > 0
   double sweep_duration_s = 0.0;    ///< From first to last beam; 0 where it is not known.
   Pose2 T_robot_laser;              ///< Mounting pose.
+  int laser = 0;                    ///< Which of the robot's lasers.
 };
 
 /// What every scan fulfils behind the inlet: 2 to 10,000 beams, as many bearings as ranges, finite

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <utility>
 
 #include "base/check.hpp"
@@ -54,7 +55,7 @@ void ScanJoiner::add(const OdometrySample& sample) {
     return;
   }
   if (is_clock_step(newest_odometry_, sample.time)) {
-    count_clock_step(newest_scan_, sample.time);
+    count_clock_step(sample.time);
     release_all();
     forget_odometry();
   }
@@ -69,27 +70,40 @@ void ScanJoiner::add(const OdometrySample& sample) {
 }
 
 void ScanJoiner::add(LaserScan scan) {
-  if (is_duplicate(scan)) {
+  Stream& stream = streams_[scan.laser];
+  if (is_duplicate(scan, stream)) {
     ++counters_.duplicates;
     return;
   }
-  if (is_stray(newest_scan_, scan.time, &scan_suspects_)) {
+  if (is_stray(stream.newest, scan.time, &stream.suspects)) {
     return;
   }
-  if (is_clock_step(newest_scan_, scan.time)) {
-    count_clock_step(newest_odometry_, scan.time);
+  if (is_clock_step(stream.newest, scan.time)) {
+    count_clock_step(scan.time);
     release_all();
     if (newest_odometry_ && is_clock_step(newest_odometry_, scan.time)) {
       forget_odometry();
     }
-    newest_scan_.reset();
+    stream.newest.reset();
   }
-  const bool steps_back = newest_scan_ && scan.time <= *newest_scan_;
+  const bool steps_back = stream.newest && scan.time <= *stream.newest;
   counters_.out_of_order += steps_back ? 1 : 0;
-  newest_scan_ = std::max(newest_scan_.value_or(scan.time), scan.time);
-  last_scan_ = scan;
-  waiting_.push_back({std::move(scan), steps_back, end_arrival()});
+  stream.newest = std::max(stream.newest.value_or(scan.time), scan.time);
+  stream.last = scan;
+  queue({std::move(scan), steps_back, end_arrival()});
   release_ready();
+}
+
+void ScanJoiner::queue(Waiting scan) {
+  const auto is_before = [&scan](const Waiting& other) {
+    return other.scan.laser != scan.scan.laser && !other.steps_back && !scan.steps_back &&
+           scan.scan.time < other.scan.time;
+  };
+  auto place = waiting_.end();
+  while (place != waiting_.begin() && is_before(*std::prev(place))) {
+    --place;
+  }
+  waiting_.insert(place, std::move(scan));
 }
 
 std::optional<JoinedScan> ScanJoiner::next() {
@@ -110,7 +124,7 @@ void ScanJoiner::release_ready() {
     const Waiting& front = waiting_.front();
     const TimePoint time = front.scan.time;
     const auto later = front.steps_back ? std::nullopt : find_later_sample(time);
-    if (const auto own = take_own_sample(time)) {
+    if (const auto own = take_own_sample(front.scan)) {
       release_front(own);
     } else if (later) {
       cursor_ = *later;
@@ -134,9 +148,9 @@ void ScanJoiner::release_front(std::optional<Pose2> T_odom_robot) {
 void ScanJoiner::release_all() {
   release_ready();
   while (!waiting_.empty()) {
-    const TimePoint time = waiting_.front().scan.time;
-    const auto own = take_own_sample(time);
-    release_front(own ? own : extrapolated(time));
+    const LaserScan& scan = waiting_.front().scan;
+    const auto own = take_own_sample(scan);
+    release_front(own ? own : extrapolated(scan.time));
   }
 }
 
@@ -145,10 +159,11 @@ void ScanJoiner::forget_odometry() {
   cursor_ = first_arrival_;
   odometry_.clear();
   newest_odometry_.reset();
+  own_.reset();
 }
 
-bool ScanJoiner::is_duplicate(const LaserScan& scan) const {
-  return last_scan_ && last_scan_->time == scan.time && have_same_ranges(*last_scan_, scan);
+bool ScanJoiner::is_duplicate(const LaserScan& scan, const Stream& stream) {
+  return stream.last && stream.last->time == scan.time && have_same_ranges(*stream.last, scan);
 }
 
 bool ScanJoiner::is_clock_step(std::optional<TimePoint> newest, TimePoint time) const {
@@ -176,13 +191,16 @@ bool ScanJoiner::is_stray(std::optional<TimePoint> newest, TimePoint time, Suspe
   return false;
 }
 
-void ScanJoiner::count_clock_step(std::optional<TimePoint> newest_of_other, TimePoint time) {
-  // Both streams see the same step: it counts with the first of them.
-  const bool is_known = newest_of_other && std::abs(seconds_between(*newest_of_other, time)) <=
-                                               options_.clock_step_back_s;
-  if (!is_known) {
-    ++counters_.clock_steps;
-  }
+void ScanJoiner::count_clock_step(TimePoint time) {
+  // All streams see the same step: it counts with the first of them.
+  const auto is_near = [&](std::optional<TimePoint> newest) {
+    return newest && std::abs(seconds_between(*newest, time)) <= options_.clock_step_back_s;
+  };
+  const bool is_known = is_near(newest_odometry_) ||
+                        std::any_of(streams_.begin(), streams_.end(), [&](const auto& stream) {
+                          return is_near(stream.second.newest);
+                        });
+  counters_.clock_steps += is_known ? 0 : 1;
 }
 
 bool ScanJoiner::has_waited_long() const {
@@ -202,10 +220,14 @@ bool ScanJoiner::has_waited_long() const {
                      [&](const Waiting& other) { return is_long_after(other.scan.time); });
 }
 
-std::optional<Pose2> ScanJoiner::take_own_sample(TimePoint time) {
+std::optional<Pose2> ScanJoiner::take_own_sample(const LaserScan& scan) {
+  if (own_ && own_->time == scan.time && own_->laser != scan.laser) {
+    return own_->T_odom_robot;
+  }
   for (std::uint64_t i = std::max(cursor_, first_arrival_); i < end_arrival(); ++i) {
-    if (sample(i).time == time) {
-      cursor_ = i + 1;  // the next scan of the same stamp has a sample of its own
+    if (sample(i).time == scan.time) {
+      cursor_ = i + 1;  // the next scan of the same laser and stamp has a sample of its own
+      own_ = OwnSample{scan.time, scan.laser, sample(i).T_odom_robot};
       return sample(i).T_odom_robot;
     }
   }

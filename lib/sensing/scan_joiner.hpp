@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <optional>
 
 #include "base/result.hpp"
@@ -38,7 +39,8 @@ struct JoinerCounters {
   std::uint64_t scans_without_odometry = 0;
 };
 
-/// Joins scans and odometry by their stamps. Scans come out in the order in which they came in.
+/// Joins scans and odometry by their stamps. Scans of one laser come out in the order in which they
+/// came in; those of several lasers in the order of their stamps, as far as they wait together.
 ///
 /// The odometry of a scan is the sample with exactly its stamp if there is one, else interpolated
 /// between the two samples around it. A scan waits until a sample stamped at or after it has come.
@@ -49,7 +51,9 @@ struct JoinerCounters {
 /// and a scan takes the first of exactly its stamp that came after the sample its predecessor took,
 /// so that it gets its own where stamps repeat. A scan whose stamp steps back waits for that. So
 /// the result does not depend on how long scans lag behind odometry, nor, while stamps grow, on how
-/// the two streams interleave within the patience.
+/// the two streams interleave within the patience. Each laser has stamps of its own: one that lags
+/// behind another does not step back, and scans of several lasers and one stamp take the same
+/// sample.
 ///
 /// Memory is bounded by `history_s` and, against floods of equal stamps, by fixed capacities.
 class ScanJoiner {
@@ -80,16 +84,30 @@ class ScanJoiner {
     std::uint64_t came_before = 0;  // arrival number of the next sample
   };
 
+  /// What is known of one laser.
+  struct Stream {
+    std::optional<TimePoint> newest;
+    std::optional<LaserScan> last;
+    Suspects suspects;
+  };
+  /// The sample that had exactly the stamp of a scan.
+  struct OwnSample {
+    TimePoint time{};
+    int laser = 0;
+    Pose2 T_odom_robot;
+  };
+
+  void queue(Waiting scan);
   void release_ready();
   void release_front(std::optional<Pose2> T_odom_robot);
   void release_all();
   void forget_odometry();
-  [[nodiscard]] bool is_duplicate(const LaserScan& scan) const;
+  [[nodiscard]] static bool is_duplicate(const LaserScan& scan, const Stream& stream);
   [[nodiscard]] bool is_clock_step(std::optional<TimePoint> newest, TimePoint time) const;
   bool is_stray(std::optional<TimePoint> newest, TimePoint time, Suspects* suspects);
-  void count_clock_step(std::optional<TimePoint> newest_of_other, TimePoint time);
+  void count_clock_step(TimePoint time);
   [[nodiscard]] bool has_waited_long() const;
-  [[nodiscard]] std::optional<Pose2> take_own_sample(TimePoint time);
+  [[nodiscard]] std::optional<Pose2> take_own_sample(const LaserScan& scan);
   [[nodiscard]] std::optional<std::uint64_t> find_later_sample(TimePoint time) const;
   [[nodiscard]] std::optional<Pose2> joined(TimePoint time, std::uint64_t last_arrival);
   [[nodiscard]] std::optional<Pose2> extrapolated(TimePoint time);
@@ -104,10 +122,9 @@ class ScanJoiner {
   std::deque<Waiting> waiting_;
   std::deque<JoinedScan> ready_;
   std::optional<TimePoint> newest_odometry_;
-  std::optional<TimePoint> newest_scan_;
   Suspects odometry_suspects_;
-  Suspects scan_suspects_;
-  std::optional<LaserScan> last_scan_;
+  std::map<int, Stream> streams_;  // by laser
+  std::optional<OwnSample> own_;   // taken last
 };
 
 }  // namespace cairn

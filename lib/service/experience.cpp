@@ -1,5 +1,6 @@
 #include "service/experience.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -15,7 +16,13 @@ GaussianPose robot_in_place(const Visit& visit, const LocalFix& fix) {
   return {visit.perceived.T_lpm_place.inverse() * fix.T_lpm_robot, fix.covariance};
 }
 
+constexpr double kUnknown_m = 4.0;  // sigma of a step
+
 }  // namespace
+
+bool is_way_unknown(const GaussianPose& motion) {
+  return motion.covariance(0, 0) + motion.covariance(1, 1) >= 2.0 * kUnknown_m * kUnknown_m;
+}
 
 void Experience::add(PerceivedScan scan) {
   scans_.push_back(std::move(scan));
@@ -27,6 +34,9 @@ Visit Experience::anchored(PlaceVisit visit) const {
   std::size_t anchor = scans_.size() - 1;
   double least_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = first; i < scans_.size(); ++i) {
+    if (i > first && is_way_unknown(scans_[i].fix.motion)) {
+      least_m = std::numeric_limits<double>::infinity();
+    }
     const double distance_m =
         (scans_[i].fix.T_lpm_robot.translation() - visit.T_lpm_place.translation()).norm();
     if (distance_m < least_m) {
@@ -35,6 +45,13 @@ Visit Experience::anchored(PlaceVisit visit) const {
     }
   }
   return {std::move(visit), anchor};
+}
+
+bool Experience::is_way_unknown_since_last_visit() const {
+  const auto first = visits_.empty() ? std::ptrdiff_t{0}
+                                     : static_cast<std::ptrdiff_t>(visits_.back().anchor_scan) + 1;
+  return std::any_of(scans_.begin() + first, scans_.end(),
+                     [](const PerceivedScan& scan) { return is_way_unknown(scan.fix.motion); });
 }
 
 void Experience::add(Visit visit) {

@@ -24,6 +24,10 @@ struct PerceivedScan {
   std::vector<OdometrySample> between;
 };
 
+/// Whether a step between two scans says next to nothing of where the robot went: on the way from a
+/// local map that nothing fitted any more to a new one, it may have been carried anywhere.
+[[nodiscard]] bool is_way_unknown(const GaussianPose& motion);
+
 /// A visit, and the scan at which the robot was closest to the origin of the place: the end of one
 /// travel and the start of the next.
 struct Visit {
@@ -45,13 +49,16 @@ class Experience {
   void add(PerceivedScan scan);
 
   /// The visit that the detector has just closed, with its anchor among the scans since the last
-  /// visit's.
+  /// visit's: those on the local map of its own.
   /// @pre at least one scan has been added
   [[nodiscard]] Visit anchored(PlaceVisit visit) const;
 
   /// Remembers a visit; from the second one on there is a travel to it.
   /// @pre its anchor is not before the last visit's and is a scan that has been added
   void add(Visit visit);
+
+  /// Whether the robot may have been carried anywhere since the last visit.
+  [[nodiscard]] bool is_way_unknown_since_last_visit() const;
 
   [[nodiscard]] const std::vector<PerceivedScan>& scans() const { return scans_; }
   [[nodiscard]] const std::vector<Visit>& visits() const { return visits_; }

@@ -55,6 +55,12 @@ const HypothesisTree& MappingService::tree() const {
 const OccupancyGrid& MappingService::local_map() const {
   return pipeline_->local_map();
 }
+const LocalisationHealth& MappingService::health() const {
+  return pipeline_->health();
+}
+std::int64_t MappingService::local_map_restarts() const {
+  return pipeline_->local_map_restarts();
+}
 const JoinerCounters& MappingService::joiner_counters() const {
   return pipeline_->joiner_counters();
 }

@@ -7,12 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "lpm/localisation_health.hpp"
 #include "sensing/odometry.hpp"
 #include "sensing/scan_joiner.hpp"
 #include "service/experience.hpp"
 #include "service/map_state.hpp"
 #include "service/operator_log.hpp"
 #include "service/options.hpp"
+#include "service/relocaliser.hpp"
 #include "topology/hypothesis_tree.hpp"
 
 namespace cairn {
@@ -24,6 +26,8 @@ struct Updates {
   std::vector<Visit> visits;             ///< Closed ones, which extended the map.
   std::vector<ExtendReport> extensions;  ///< One for each visit but the very first.
   bool is_map_changed = false;
+  std::optional<Relocalisation> relocalised;  ///< A lost robot was found in the map.
+  bool is_health_changed = false;             ///< MappingService::health() has news.
 };
 
 /// The stages of the pipeline, for whoever measures them.
@@ -83,6 +87,10 @@ class MappingService {
   [[nodiscard]] const Experience& experience() const;
   [[nodiscard]] const HypothesisTree& tree() const;
   [[nodiscard]] const OccupancyGrid& local_map() const;
+  /// How far the robot's pose is to be relied on, as of the last reading.
+  [[nodiscard]] const LocalisationHealth& health() const;
+  /// How often the local map was started afresh.
+  [[nodiscard]] std::int64_t local_map_restarts() const;
   [[nodiscard]] const JoinerCounters& joiner_counters() const;
   [[nodiscard]] const PlaceDetectorReport& place_report() const;
   /// Where the robot is in the frame of the best map, as of the last scan: the place of the last

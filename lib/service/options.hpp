@@ -4,11 +4,13 @@
 
 #include "global_map/global_map.hpp"
 #include "layout/place_layout.hpp"
+#include "lpm/localisation_health.hpp"
 #include "lpm/lpm_options.hpp"
 #include "lpm/map_matching.hpp"
 #include "place/place_options.hpp"
 #include "planning/path.hpp"
 #include "sensing/scan_joiner.hpp"
+#include "service/relocaliser.hpp"
 #include "topology/topology_options.hpp"
 
 namespace cairn {
@@ -17,6 +19,8 @@ namespace cairn {
 struct ServiceOptions {
   JoinerOptions joiner;
   LpmOptions lpm;
+  LocalisationOptions localisation;
+  RelocalisationOptions relocalisation;
   PlaceOptions place;
   MapMatchOptions recognition;  ///< Comparison of two visits' local maps.
   TopologyOptions topology;

@@ -30,13 +30,21 @@ MappingService::Pipeline::Pipeline(const ServiceOptions& options, StageObserver 
       observer_(std::move(observer)),
       joiner_(options.joiner),
       local_mapper_(options.lpm),
+      watch_(options.localisation),
+      relocaliser_(options.relocalisation),
       place_detector_(options.place),
       matcher_(experience_, options.recognition),
       tree_(options.topology, evidence()) {}
 
 void MappingService::Pipeline::join(const OdometrySample& sample) {
+  watch_.heard_odometry(sample.time);
   joiner_.add(sample);
   between_scans_.add(sample);
+}
+
+void MappingService::Pipeline::join(LaserScan scan) {
+  watch_.heard_scan(scan.time);
+  joiner_.add(std::move(scan));
 }
 
 Updates MappingService::Pipeline::perceive_joined() {
@@ -44,19 +52,58 @@ Updates MappingService::Pipeline::perceive_joined() {
   enter(Stage::kJoining);
   while (std::optional<JoinedScan> joined = joiner_.next()) {
     enter(Stage::kLocalMapping);
-    const LocalFix fix = local_mapper_.absorb(*joined);
+    const LocalFix fix = localise(*joined, &updates);
     std::vector<OdometrySample> between =
         between_scans_.take(joined->scan.time, joined->T_odom_robot);
     PerceivedScan perceived{std::make_shared<const LaserScan>(std::move(joined->scan)), fix,
                             joined->T_odom_robot, std::move(between)};
     since_anchor_ = compounded(since_anchor_, fix.motion);
+    relocalise(perceived, &updates);
     experience_.add(perceived);
     updates.scans.push_back(std::move(perceived));
-    detect_places(fix, &updates);
+    if (watch_.may_see_places()) {
+      detect_places(fix, &updates);
+    }
     enter(Stage::kJoining);
   }
+  updates.is_health_changed = !is_alike(told_health_, watch_.health());
+  told_health_ = watch_.health();
   enter(Stage::kIdle);
   return updates;
+}
+
+LocalFix MappingService::Pipeline::localise(const JoinedScan& joined, Updates* updates) {
+  LocalFix fix = local_mapper_.locate(joined);
+  watch_.observe(fix, joined.T_odom_robot.has_value());
+  const std::int64_t restarts = local_mapper_.restarts();
+  if (watch_.needs_new_map()) {
+    local_mapper_.start_anew();
+  } else if (watch_.may_map()) {
+    local_mapper_.take_up(fix);
+  }
+  if (local_mapper_.restarts() != restarts) {
+    watch_.started_new_map();
+    take_leave_of_map(&fix, updates);
+  }
+  return fix;
+}
+
+void MappingService::Pipeline::relocalise(const PerceivedScan& scan, Updates* updates) {
+  std::optional<Relocalisation> found = relocaliser_.absorb(*scan.scan, scan.fix.motion);
+  if (found) {
+    found->number = ++relocalisations_;
+    found->place = nearest_place(found->T_global_robot.mean.translation(), &found->distance_m);
+    updates->relocalised = *found;
+  }
+}
+
+void MappingService::Pipeline::take_leave_of_map(LocalFix* fix, Updates* updates) {
+  close_open_visits(updates);
+  enter(Stage::kLocalMapping);
+  relocaliser_.start(trajectory());
+  const double way_m = options_.localisation.unknown_way_m;
+  const double turn_rad = options_.localisation.unknown_turn_rad;
+  fix->motion.covariance.diagonal() += Eigen::Vector3d(way_m, way_m, turn_rad).cwiseAbs2();
 }
 
 void MappingService::Pipeline::close_open_visits(Updates* updates) {
@@ -106,9 +153,17 @@ Updates MappingService::Pipeline::resume() {
     travel_m += scans[first].fix.motion.mean.translation().norm();
     --first;
   }
+  for (std::size_t i = scans.size() - 1; i > first; --i) {
+    first = is_way_unknown(scans[i].fix.motion) ? i : first;
+  }
   for (std::size_t i = first; i < scans.size(); ++i) {
-    local_mapper_.restore(*scans[i].scan, scans[i].fix.T_lpm_robot, scans[i].T_odom_robot);
-    if (i >= looks_from) {
+    watch_.observe(scans[i].fix, scans[i].T_odom_robot.has_value());
+    if (i > 0 && is_way_unknown(scans[i].fix.motion)) {
+      watch_.started_new_map();
+    }
+    local_mapper_.restore(*scans[i].scan, scans[i].fix.T_lpm_robot, scans[i].T_odom_robot,
+                          watch_.may_map());
+    if (i >= looks_from && watch_.may_see_places()) {
       detect_places(scans[i].fix, &updates);
     }
   }
@@ -179,7 +234,8 @@ bool MappingService::Pipeline::is_known(const PlaceVisit& visit) const {
   const bool is_at_its_spot =
       (visit.T_lpm_place.translation() - last.T_lpm_place.translation()).norm() <
       std::max(options_.place.same_spot_m, 0.5 * last.neighbourhood.radius_m);
-  return is_at_its_spot && (resumed_ || last.departure_gateway < 0);
+  return is_at_its_spot && !experience_.is_way_unknown_since_last_visit() &&
+         (resumed_ || last.departure_gateway < 0);
 }
 
 void MappingService::Pipeline::enter(Stage stage) const {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lpm/local_mapper.hpp"
+#include "lpm/localisation_watch.hpp"
 #include "place/place_detector.hpp"
 #include "sensing/scan_joiner.hpp"
 #include "service/best_map.hpp"
@@ -25,7 +26,7 @@ class MappingService::Pipeline {
   Pipeline& operator=(const Pipeline&) = delete;
 
   void join(const OdometrySample& sample);
-  void join(LaserScan scan) { joiner_.add(std::move(scan)); }
+  void join(LaserScan scan);
   void flush() { joiner_.flush(); }
   /// The data's way: scan and odometry → pose in the local map → place → experience → hypotheses →
   /// layout and trajectory.
@@ -46,6 +47,8 @@ class MappingService::Pipeline {
   [[nodiscard]] const Experience& experience() const { return experience_; }
   [[nodiscard]] const HypothesisTree& tree() const { return tree_; }
   [[nodiscard]] const OccupancyGrid& local_map() const { return local_mapper_.grid(); }
+  [[nodiscard]] const LocalisationHealth& health() const { return watch_.health(); }
+  [[nodiscard]] std::int64_t local_map_restarts() const { return local_mapper_.restarts(); }
   [[nodiscard]] const JoinerCounters& joiner_counters() const { return joiner_.counters(); }
   [[nodiscard]] const PlaceDetectorReport& place_report() const { return place_detector_.report(); }
   [[nodiscard]] GaussianPose T_global_robot() const {
@@ -63,6 +66,12 @@ class MappingService::Pipeline {
 
   // Perception: pipeline.cpp.
 
+  /// Pose and map; the map takes up the scan only while the robot knows where it is.
+  LocalFix localise(const JoinedScan& joined, Updates* updates);
+  /// The local map is another one: what was seen of places so far is of the old one.
+  void take_leave_of_map(LocalFix* fix, Updates* updates);
+  /// Looks in the best map for a robot that has lost its local map.
+  void relocalise(const PerceivedScan& scan, Updates* updates);
   void detect_places(const LocalFix& fix, Updates* updates);
   /// One step of experience: the tree grows, the best hypothesis is laid out.
   void take_up(Visit visit, Updates* updates);
@@ -78,6 +87,9 @@ class MappingService::Pipeline {
   /// The tree has been grown anew.
   void take_in(const AssertionReport& report);
   void lay_out();
+  /// Every scan so far in the global frame.
+  [[nodiscard]] std::vector<PosedScan> trajectory() const;
+  [[nodiscard]] int nearest_place(const Vector2d& p_global, double* distance_m) const;
   /// From here on the robot's pose is this place's, and the motions since.
   void anchor_robot();
   void tell_best_map(MapState* state) const;
@@ -88,6 +100,10 @@ class MappingService::Pipeline {
   ScanJoiner joiner_;
   BetweenScans between_scans_;
   LocalMapper local_mapper_;
+  LocalisationWatch watch_;
+  LocalisationHealth told_health_;
+  Relocaliser relocaliser_;
+  std::int64_t relocalisations_ = 0;
   PlaceDetector place_detector_;
   Experience experience_;
   VisitMatcher matcher_;

@@ -108,18 +108,38 @@ void MappingService::Pipeline::anchor_robot() {
   }
 }
 
+std::vector<PosedScan> MappingService::Pipeline::trajectory() const {
+  const std::vector<PerceivedScan>& scans = experience_.scans();
+  std::vector<PosedScan> posed;
+  posed.reserve(scans.size());
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    posed.push_back({scans[i].scan, i < metrical_.trajectory.size()
+                                        ? metrical_.trajectory[i]
+                                        : metrical_.T_global_lpm * scans[i].fix.T_lpm_robot});
+  }
+  return posed;
+}
+
+int MappingService::Pipeline::nearest_place(const Vector2d& p_global, double* distance_m) const {
+  int nearest = -1;
+  const std::vector<Pose2>& places = metrical_.layout.T_global_place;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double away_m = (places[i].translation() - p_global).norm();
+    if (nearest < 0 || away_m < *distance_m) {
+      nearest = static_cast<int>(i);
+      *distance_m = away_m;
+    }
+  }
+  return nearest;
+}
+
 std::shared_ptr<const MapState> MappingService::Pipeline::state() const {
   auto state = std::make_shared<MapState>();
   const std::vector<PerceivedScan>& scans = experience_.scans();
   state->topology_revision = revision_;
   state->visit_count = static_cast<std::int64_t>(experience_.visits().size());
   state->T_global_lpm = metrical_.T_global_lpm;
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    state->trajectory.push_back(
-        {scans[i].scan, i < metrical_.trajectory.size()
-                            ? metrical_.trajectory[i]
-                            : metrical_.T_global_lpm * scans[i].fix.T_lpm_robot});
-  }
+  state->trajectory = trajectory();
   state->poses = with_poses_between(scans, state->trajectory);
   if (!scans.empty()) {
     state->time = scans.back().fix.time;

@@ -254,6 +254,11 @@ inline cairn_lcm::status_t sample() {
   message.state_name = "MAPPING";
   message.reason = "none";
   message.blamed = "visit 7: misread star";
+  message.localisation_name = "degraded";
+  message.localisation_cause = "fault";
+  message.localisation_reason = "slip: the wheels spin";
+  message.fault = "slip";
+  message.relocalised = "relocalised near place 3";
   return message;
 }
 

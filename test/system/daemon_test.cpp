@@ -143,6 +143,8 @@ TEST_F(RunningDaemonTest, MapsWhatItHears) {
   }));
   EXPECT_TRUE(heard([this] { return status_.scans_mapped > 3; }));
   EXPECT_EQ(status_.scans_dropped, 0);
+  EXPECT_EQ(status_.localisation_name, "tracking") << status_.localisation_reason;
+  EXPECT_EQ(status_.is_using_odometry, 1);
 }
 
 TEST_F(RunningDaemonTest, CountsHostileMessagesAndGoesOn) {

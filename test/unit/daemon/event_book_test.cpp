@@ -5,6 +5,7 @@
 namespace cairn {
 namespace {
 
+using ::testing::IsEmpty;
 using ::testing::SizeIs;
 using Kind = cairn_lcm::place_event_t;
 
@@ -60,6 +61,35 @@ TEST(EventBook, TellsAClosureThatWasUndone) {
 TEST(EventBook, SaysNothingWhileTheMapOnlyGrows) {
   EventBook book(7);
   EXPECT_THAT(book.note(map_of({0, 1}, 0), map_of({0, 1, 2}, 0)), SizeIs(0));
+}
+
+TEST(EventBook, TellsOnceThatTheRobotIsLostAndOnceThatItIsFound) {
+  EventBook book(1);
+  LocalisationHealth well;
+  well.state = LocalisationState::kTracking;
+  LocalisationHealth lost = well;
+  lost.state = LocalisationState::kLost;
+  lost.times_lost = 1;
+  LocalisationHealth found = lost;
+  found.state = LocalisationState::kDegraded;
+  EXPECT_THAT(book.note(well, well, {}), IsEmpty());
+  const auto told = book.note(well, lost, {TimePoint(), "the scans do not fit"});
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told.front().kind_name, "LOST");
+  EXPECT_EQ(told.front().reason, "the scans do not fit");
+  EXPECT_THAT(book.note(lost, lost, {}), IsEmpty());
+  ASSERT_EQ(book.note(lost, found, {}).size(), 1U);
+  EXPECT_EQ(book.after(1).front().kind_name, "LOCALIZED");
+}
+
+TEST(EventBook, TellsARelocalisationWithItsPlace) {
+  EventBook book(1);
+  Relocalisation found;
+  found.place = 3;
+  const auto told = book.note(found);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told.front().kind_name, "LOCALIZED");
+  EXPECT_EQ(told.front().place_id, 3);
 }
 
 }  // namespace

@@ -37,6 +37,63 @@ std::vector<double> joined_x(ScanJoiner* joiner) {
   return xs;
 }
 
+LaserScan scan_of(int laser, double seconds, float range_m = 1.0F) {
+  LaserScan one = scan(seconds, range_m);
+  one.laser = laser;
+  return one;
+}
+
+/// The laser of every joined scan.
+std::vector<int> joined_lasers(ScanJoiner* joiner) {
+  std::vector<int> lasers;
+  while (const auto joined = joiner->next()) {
+    lasers.push_back(joined->scan.laser);
+  }
+  return lasers;
+}
+
+TEST(ScanJoiner, TwoLasersOfOneStampTakeTheSameSampleAtOnce) {
+  ScanJoiner joiner;
+  joiner.add(odometry(1.0, 5.0));
+  joiner.add(scan_of(0, 1.0));
+  joiner.add(scan_of(1, 1.0));
+  EXPECT_THAT(joined_x(&joiner), ElementsAre(5.0, 5.0));
+  EXPECT_EQ(joiner.counters().out_of_order, 0U);
+  EXPECT_EQ(joiner.counters().duplicates, 0U);
+}
+
+TEST(ScanJoiner, ALaserThatLagsBehindAnotherDoesNotWaitAndIsNotOutOfOrder) {
+  ScanJoiner joiner;
+  joiner.add(odometry(1.0, 1.0));
+  joiner.add(odometry(1.2, 3.0));
+  joiner.add(scan_of(0, 1.15));
+  joiner.add(scan_of(1, 1.05));
+  EXPECT_THAT(joined_x(&joiner),
+              ElementsAre(::testing::DoubleNear(2.5, 1e-9), ::testing::DoubleNear(1.5, 1e-9)));
+  EXPECT_EQ(joiner.counters().out_of_order, 0U);
+}
+
+TEST(ScanJoiner, ScansOfTwoLasersThatWaitTogetherComeOutInTheOrderOfTheirStamps) {
+  ScanJoiner joiner;
+  joiner.add(odometry(1.0, 1.0));
+  joiner.add(scan_of(0, 1.15));
+  joiner.add(scan_of(1, 1.05));
+  joiner.add(scan_of(1, 1.10));
+  joiner.add(odometry(1.2, 3.0));
+  EXPECT_THAT(joined_lasers(&joiner), ElementsAre(1, 1, 0));
+}
+
+TEST(ScanJoiner, AClockStepThatTwoLasersSeeCountsOnce) {
+  ScanJoiner joiner;
+  for (const double start_s : {0.0, 8000.0}) {
+    for (int i = 0; i < 10; ++i) {
+      joiner.add(scan_of(0, start_s + 0.1 * i));
+      joiner.add(scan_of(1, start_s + 0.1 * i));
+    }
+  }
+  EXPECT_EQ(joiner.counters().clock_steps, 1U);
+}
+
 TEST(ScanJoiner, PrefersTheSampleOfExactlyTheSameStamp) {
   ScanJoiner joiner;
   joiner.add(odometry(0.9, 9.0));

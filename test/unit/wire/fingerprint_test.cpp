@@ -49,7 +49,7 @@ TEST(Fingerprints, AreWhatTheyWere) {
       CAIRN_GOLDEN(cairn_lcm::snapshot_chunk_t, 0xb25d9c966c0de137),
       CAIRN_GOLDEN(cairn_lcm::snapshot_request_t, 0xab58f68426f09869),
       CAIRN_GOLDEN(cairn_lcm::sonar_ring_t, 0x2e090798c624ed21),
-      CAIRN_GOLDEN(cairn_lcm::status_t, 0x699a087b9ac34067),
+      CAIRN_GOLDEN(cairn_lcm::status_t, 0xeb7255f74475dff9),
       CAIRN_GOLDEN(cairn_lcm::tile_t, 0xb87e5a344b6a8dfb),
       CAIRN_GOLDEN(cairn_lcm::topology_t, 0xd6dca346ee317a9d),
       CAIRN_GOLDEN(cairn_lcm::trajectory_t, 0x6fb8b1443a8c148f),

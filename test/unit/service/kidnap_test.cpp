@@ -1,0 +1,99 @@
+// A robot that is lifted up and set down elsewhere: it notices, harms no map, and is found again.
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+
+#include "simulated_drive.hpp"
+
+namespace cairn {
+namespace {
+
+using test::SimulatedDrive;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+const Pose2 kElsewhere(-1.0, 0.5, 2.0);
+
+class Kidnap : public testing::Test {
+ protected:
+  void kidnap(SimulatedDrive* drive) {
+    drive->go(150);
+    drive->be_carried_by(kElsewhere);
+    drive->go(30);
+  }
+  /// The lpm frame in which the map is one of the room now, as seen from the first one.
+  static Pose2 T_truth_lpm(const SimulatedDrive& drive) {
+    return drive.T_lpm_robot() * drive.perceived().back().fix.T_lpm_robot.inverse();
+  }
+  SimulatedDrive drive_;
+};
+
+TEST_F(Kidnap, IsNoticedAndStartsANewMapOfWhatIsThere) {
+  kidnap(&drive_);
+  EXPECT_EQ(drive_.health().times_lost, 1);
+  EXPECT_GE(drive_.service().local_map_restarts(), 1);
+  EXPECT_THAT(drive_.reasons(), Contains(HasSubstr("lost: nothing fitted the local map")));
+  drive_.go(30);
+  EXPECT_EQ(drive_.health().state, LocalisationState::kTracking)
+      << reason_of(drive_.health(), LocalisationOptions());
+  EXPECT_LT(drive_.share_of_stray_walls(T_truth_lpm(drive_)), 0.02);
+}
+
+TEST_F(Kidnap, MakesTheWayToItOneWithoutInformation) {
+  kidnap(&drive_);
+  const auto unknown =
+      std::count_if(drive_.perceived().begin(), drive_.perceived().end(),
+                    [](const PerceivedScan& scan) { return is_way_unknown(scan.fix.motion); });
+  EXPECT_EQ(unknown, drive_.service().local_map_restarts());
+  EXPECT_GT(drive_.service().T_global_robot().covariance(0, 0), 16.0);
+}
+
+TEST_F(Kidnap, IsFollowedByARelocalisationWithMarginThatMovesNothing) {
+  kidnap(&drive_);
+  EXPECT_THAT(drive_.relocalised(), IsEmpty()) << "not before some travel";
+  drive_.go(120);
+  ASSERT_THAT(drive_.relocalised(), SizeIs(1));
+  const Relocalisation& found = drive_.relocalised().front();
+  EXPECT_GE(found.travel_m, RelocalisationOptions().accept_travel_m);
+  EXPECT_GE(found.margin, RelocalisationOptions().accept_margin);
+  EXPECT_TRUE(is_positive_definite(found.T_global_robot.covariance));
+  EXPECT_THAT(to_text(found), HasSubstr("score"));
+  // It is said, and that is all: the trajectory goes on as dead reckoning has it.
+  EXPECT_GT(drive_.service().T_global_robot().covariance(0, 0), 16.0);
+}
+
+TEST_F(Kidnap, EndsWhereTheRobotIs) {
+  kidnap(&drive_);
+  while (drive_.relocalised().empty() && drive_.perceived().size() < 400) {
+    drive_.go(1);
+  }
+  ASSERT_THAT(drive_.relocalised(), SizeIs(1));
+  const Pose2 found = drive_.relocalised().front().T_global_robot.mean;
+  EXPECT_LT((found.translation() - drive_.T_lpm_robot().translation()).norm(), 0.3);
+  EXPECT_LT(std::abs(turn_between(found.theta(), drive_.T_lpm_robot().theta())), 0.1);
+}
+
+TEST_F(Kidnap, IsRecalledAsItWas) {
+  kidnap(&drive_);
+  drive_.go(60);
+  drive_.finish();
+  MappingService recalled{ServiceOptions()};
+  for (const PerceivedScan& scan : drive_.perceived()) {
+    recalled.recall(scan);
+  }
+  for (const Visit& visit : drive_.visits()) {
+    ASSERT_TRUE(recalled.recall(visit).ok());
+  }
+  recalled.resume();
+  const auto before = drive_.service().state();
+  const auto after = recalled.state();
+  ASSERT_EQ(after->trajectory.size(), before->trajectory.size());
+  EXPECT_EQ(after->trajectory.back().T_global_robot, before->trajectory.back().T_global_robot);
+  EXPECT_EQ(recalled.health().state, LocalisationState::kTracking);
+}
+
+}  // namespace
+}  // namespace cairn
