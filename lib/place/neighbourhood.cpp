@@ -18,6 +18,9 @@ namespace {
 /// gateways decide.
 constexpr double kWeakCorner = 0.8;
 
+/// More than an even chance that an opening is a gateway makes a place.
+constexpr double kLeastLogOddsOfPlace = 1.0;
+
 /// The mean of the nodes where most edges meet: where ways meet rather than where the axis turns or
 /// ends, if there is any such.
 Vector2d center_of(const LocalView& view, const AxisSite& site) {
@@ -53,11 +56,12 @@ bool is_near_node(const LocalView& view, const AxisSite& site) {
 bool is_place(const PlaceNeighbourhood& place, const PlaceOptions& options) {
   std::vector<Gateway> gateways;
   for (const Gateway& gateway : place.gateways) {
-    const bool is_unsure_doorway =
+    const bool is_doubtful =
         std::any_of(place.unsure.begin(), place.unsure.end(), [&](const UnsureGateway& one) {
-          return one.is_doorway && one.gateway.basis_points == gateway.basis_points;
+          return one.gateway.basis_points == gateway.basis_points &&
+                 (one.is_doorway || one.log_odds < kLeastLogOddsOfPlace);
         });
-    if (!is_unsure_doorway) {
+    if (!is_doubtful) {
       gateways.push_back(gateway);
     }
   }

@@ -143,12 +143,33 @@ void PlaceDetector::look(const StampedPose& now,
       announce(now, false, events);
     }
   }
+  if (!stay_) {
+    notice_late(now, grid, events);
+  }
   if (!stay_ && here != nullptr) {
     open_stay(now, *here);
   }
   if (stay_) {
     stay_->keep_map(grid, options_.crop_margin_m);
     announce(now, false, events);
+  }
+}
+
+void PlaceDetector::notice_late(const StampedPose& now,
+                                const OccupancyGrid& grid,
+                                std::vector<PlaceEvent>* events) {
+  for (const PlaceNeighbourhood& place : around_) {
+    const bool is_last =
+        waiting_ && (waiting_->best().center - place.center).norm() < same_spot_m(waiting_->best());
+    if (is_last || place.contains_robot) {
+      continue;
+    }
+    stay_ = PlaceStay::gone_through(place, way_, last_left_, options_);
+    if (stay_) {
+      is_announced_ = false;
+      close_stay(now, grid, &place, events);
+      return;
+    }
   }
 }
 
@@ -185,6 +206,7 @@ void PlaceDetector::close_stay(const StampedPose& now,
                                const PlaceNeighbourhood* reading,
                                std::vector<PlaceEvent>* events) {
   way_ = stay_->last_of_way(kWayBefore_m);
+  last_left_ = now.time;
   if (reading == nullptr) {
     ++report_.retracted;
   } else if (!stay_->conclude(*reading)) {

@@ -66,6 +66,10 @@ class PlaceDetector {
 
  private:
   void look(const StampedPose& now, const OccupancyGrid& grid, std::vector<PlaceEvent>* events);
+  /// Takes up places that turned out to be such only behind the robot.
+  void notice_late(const StampedPose& now,
+                   const OccupancyGrid& grid,
+                   std::vector<PlaceEvent>* events);
   void open_stay(const StampedPose& now, const PlaceNeighbourhood& reading);
   /// @param reading of the place the robot has left; nullptr: there is no place any more
   void close_stay(const StampedPose& now,
@@ -90,6 +94,7 @@ class PlaceDetector {
   std::optional<PlaceStay> waiting_;  ///< Left, but not yet followed by another place.
   std::vector<Gateway> confirmed_;    ///< Of the stay, in frame lpm.
   bool is_announced_ = false;
+  TimePoint last_left_ = TimePoint::min();  ///< When the last stay ended.
 };
 
 }  // namespace cairn

@@ -31,21 +31,22 @@ bool same_star(const Star& a, const Star& b) {
   return false;
 }
 
-struct Passage {
+struct Crossing {
   int gateway = -1;
-  int sign = 0;  ///< +1 outward, -1 inward.
+  int sign = 0;              ///< +1 outward, -1 inward.
+  std::size_t position = 0;  ///< Of the first pose behind it.
 };
 
 /// The last passage of a way through any gateway; only inward ones, or outward ones, if asked.
-Passage last_passage(const std::vector<Gateway>& gateways,
-                     const std::vector<StampedPose>& way,
-                     int wanted_sign) {
+Crossing last_passage(const std::vector<Gateway>& gateways,
+                      const std::vector<StampedPose>& way,
+                      int wanted_sign) {
   for (std::size_t i = way.size(); i-- > 1;) {
     for (std::size_t g = 0; g < gateways.size(); ++g) {
       const int sign = crossing(gateways[g], way[i - 1].T_lpm_robot.translation(),
                                 way[i].T_lpm_robot.translation(), kCrossingSlack_m);
       if (sign != 0 && (wanted_sign == 0 || sign == wanted_sign)) {
-        return {static_cast<int>(g), sign};
+        return {static_cast<int>(g), sign, i};
       }
     }
   }
@@ -92,6 +93,33 @@ PlaceStay::PlaceStay(const StampedPose& entry,
   way_.push_back(entry);
 }
 
+std::optional<PlaceStay> PlaceStay::gone_through(const PlaceNeighbourhood& place,
+                                                 const std::vector<StampedPose>& way,
+                                                 TimePoint since,
+                                                 const PlaceOptions& options) {
+  const Crossing out = last_passage(place.gateways, way, 0);
+  if (out.sign <= 0 || way[out.position].time <= since) {
+    return std::nullopt;
+  }
+  const Gateway& exit = place.gateways[static_cast<std::size_t>(out.gateway)];
+  const double beyond_m = distance_beyond_m(exit, way.back().T_lpm_robot.translation());
+  if (exit.width_m >= options.doorway_below_m || beyond_m < options.left_beyond_m) {
+    return std::nullopt;
+  }
+  const auto end = way.begin() + static_cast<std::ptrdiff_t>(out.position);
+  const Crossing in = last_passage(place.gateways, {way.begin(), end}, 0);
+  if (in.sign >= 0) {
+    return std::nullopt;
+  }
+  const auto entry = way.begin() + static_cast<std::ptrdiff_t>(in.position);
+  PlaceStay stay(*entry, {way.begin(), entry}, true);
+  for (auto pose = entry + 1; pose != way.end(); ++pose) {
+    stay.add_pose(*pose);
+  }
+  stay.conclude(place);
+  return stay;
+}
+
 void PlaceStay::add_reading(const PlaceNeighbourhood& reading) {
   last_reading_ = reading;
   if (!reading.is_complete) {
@@ -130,7 +158,7 @@ const PlaceNeighbourhood& PlaceStay::best() const {
 
 int PlaceStay::gateway_left_through(double beyond_m) const {
   const std::vector<Gateway>& gateways = best().gateways;
-  const Passage last = last_passage(gateways, way_, 0);
+  const Crossing last = last_passage(gateways, way_, 0);
   if (last.sign <= 0) {
     return -1;
   }
@@ -145,7 +173,7 @@ bool PlaceStay::is_far_outside(double beyond_m) const {
 }
 
 int PlaceStay::gateway_entered_by(const std::vector<StampedPose>& way) const {
-  const Passage last = last_passage(best().gateways, way, 0);
+  const Crossing last = last_passage(best().gateways, way, 0);
   return last.sign < 0 ? last.gateway : -1;
 }
 
@@ -180,7 +208,7 @@ int PlaceStay::arrival() const {
 }
 
 void PlaceStay::leave() {
-  const Passage last = last_passage(best().gateways, way_, +1);
+  const Crossing last = last_passage(best().gateways, way_, +1);
   departure_ =
       last.gateway >= 0 ? last.gateway : nearest_gateway(way_.back().T_lpm_robot.translation());
 }

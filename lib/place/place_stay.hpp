@@ -38,6 +38,14 @@ class PlaceStay {
             std::vector<StampedPose> way_before,
             bool has_come_from_outside);
 
+  /// The stay at a place that turned out to be one only when the robot had gone through it: a spot
+  /// in a corridor where the robot took a doorway. None unless the way came in through one of its
+  /// gateways and left through a doorway, after some time, and is beyond it by some distance.
+  [[nodiscard]] static std::optional<PlaceStay> gone_through(const PlaceNeighbourhood& place,
+                                                             const std::vector<StampedPose>& way,
+                                                             TimePoint since,
+                                                             const PlaceOptions& options);
+
   /// Takes the place as read once more.
   void add_reading(const PlaceNeighbourhood& reading);
   /// Takes the robot's next pose; poses closer than a few centimetres are not kept.
@@ -55,6 +63,7 @@ class PlaceStay {
   /// @return whether the stay is one at a place at all
   bool conclude(const PlaceNeighbourhood& reading);
   [[nodiscard]] TimePoint entered() const { return entry_.time; }
+  [[nodiscard]] TimePoint last_time() const { return way_.back().time; }
 
   /// Number of the gateway, of the best reading, that the robot crossed outward last and is beyond
   /// by some distance now; -1 while there is none.

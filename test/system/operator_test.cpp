@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 class OperatorTest : public ::testing::Test {
  protected:
   void drive_the_tour() {
-    ASSERT_EQ(run({CAIRN_SIM, CAIRN_SOURCE_DIR "/config/worlds/square.txt", "--tour", "loop",
+    ASSERT_EQ(run({CAIRN_SIM, CAIRN_SOURCE_DIR "/config/worlds/square.txt", "--tour", "twice",
                    "--log", log()},
                   folder_)
                   .status,

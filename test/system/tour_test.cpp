@@ -1,6 +1,7 @@
 // The simulated tour against its ground truth: in the preferred hypothesis every true loop is
 // closed and no false one.
 
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -82,9 +83,10 @@ TEST_P(TourTest, ClosesEveryTrueLoopAndNoFalseOne) {
   }
   int passes = 0;
   for (const auto& [name, junction] : junctions) {
-    passes += junction.passes;
+    // Lower case: doorways that the robot does not go through, which make no place.
+    passes += std::islower(static_cast<unsigned char>(name.front())) != 0 ? 0 : junction.passes;
   }
-  // The start may lack what lies behind the robot, and a doorway may be too shallow for a place.
+  // The start may lack what lies behind the robot, and a blind corridor may look like an alcove.
   EXPECT_GE(visits, passes - 3);
   EXPECT_EQ(replay.output.find("given up at visit"), std::string::npos) << replay.output;
 }
