@@ -2,15 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace cairn {
-namespace {
-
-/// Where nothing tells how a visit lies to its place.
-const GaussianPose kSomewhereAtThePlace{
-    Pose2(), Eigen::Vector3d(1.0, 1.0, kPi* kPi / 3.0).asDiagonal().toDenseMatrix()};
-
-}  // namespace
+namespace {}  // namespace
 
 std::vector<GatewayPair> VisitMatcher::pairs(VisitId known, VisitId visit, GatewayPair pair) const {
   const std::vector<Visit>& visits = experience_.visits();
@@ -69,10 +64,16 @@ double VisitMatcher::log_likelihood_ratio(VisitId known, VisitId visit, GatewayP
 }
 
 GaussianPose VisitMatcher::T_place_visit(const TopologicalMap& map, VisitId visit) const {
+  const std::optional<GaussianPose> matched = matched_at_place(map, visit);
+  return matched ? *matched : dead_reckoned(map.first_visit(map.at_visit(visit).place), visit);
+}
+
+std::optional<GaussianPose> VisitMatcher::matched_at_place(const TopologicalMap& map,
+                                                           VisitId visit) const {
   const VisitedPlace at = map.at_visit(visit);
   const VisitId first = map.first_visit(at.place);
   if (first == visit) {
-    return {};
+    return GaussianPose{};
   }
   // A gateway that both visits saw, the one of arrival if possible.
   const std::vector<Visit>& visits = experience_.visits();
@@ -89,7 +90,7 @@ GaussianPose VisitMatcher::T_place_visit(const TopologicalMap& map, VisitId visi
       }
     }
   }
-  return kSomewhereAtThePlace;
+  return std::nullopt;
 }
 
 std::vector<TravelConstraint> VisitMatcher::constraints(const TopologicalMap& map) const {
@@ -104,6 +105,22 @@ std::vector<TravelConstraint> VisitMatcher::constraints(const TopologicalMap& ma
     constraints.push_back({map.at_visit(from).place.value, map.at_visit(to).place.value,
                            compounded(compounded(T_place_visit(map, from), travel.T_from_to),
                                       inverted(T_place_visit(map, to)))});
+  }
+  // Where a visit cannot be matched with its place, what holds the places before and after it
+  // together is the way between them.
+  for (int v = 1; v + 1 < map.visit_count(); ++v) {
+    const VisitId before{v - 1};
+    const VisitId after{v + 1};
+    if (map.is_carried(VisitId{v}) || map.is_carried(after) ||
+        map.at_visit(before).place == map.at_visit(after).place ||
+        matched_at_place(map, VisitId{v})) {
+      continue;
+    }
+    const GaussianPose way = compounded(experience_.travels()[before.index()].T_from_to,
+                                        experience_.travels()[before.index() + 1].T_from_to);
+    constraints.push_back({map.at_visit(before).place.value, map.at_visit(after).place.value,
+                           compounded(compounded(T_place_visit(map, before), way),
+                                      inverted(T_place_visit(map, after)))});
   }
   return constraints;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -31,11 +32,12 @@ class VisitMatcher {
   [[nodiscard]] double log_likelihood_ratio(VisitId known, VisitId visit, GatewayPair pair) const;
 
   /// The place frame of a visit in the frame of the place it was to: that of the place's first
-  /// visit.
+  /// visit. By dead reckoning where no gateway was seen at both.
   [[nodiscard]] GaussianPose T_place_visit(const TopologicalMap& map, VisitId visit) const;
 
-  /// F(lambda) of every travel, between the places that the map says they joined. Where the robot
-  /// was carried nothing is known.
+  /// F(lambda) of every travel, between the places that the map says they joined, in their order.
+  /// Where the robot was carried nothing is known. Then those of two travels in a row, where the
+  /// visit between them cannot be matched with its place.
   [[nodiscard]] std::vector<TravelConstraint> constraints(const TopologicalMap& map) const;
 
   /// Dead reckoning is given this many standard deviations before it refutes. Generous: slip and
@@ -46,6 +48,9 @@ class VisitMatcher {
   [[nodiscard]] std::vector<GatewayPair> pairs(VisitId known,
                                                VisitId visit,
                                                GatewayPair pair) const;
+  /// None where no gateway was seen at both visits.
+  [[nodiscard]] std::optional<GaussianPose> matched_at_place(const TopologicalMap& map,
+                                                             VisitId visit) const;
   [[nodiscard]] const GaussianPose& dead_reckoned(VisitId known, VisitId visit) const;
 
   const Experience& experience_;
