@@ -118,6 +118,8 @@ std::string trajectory_of(const LocalmapRun& run) {
 }
 
 int track(const LocalmapRequest& request, const Streams& streams) {
+  check_outputs({request.log, request.config_file, request.relations_file},
+                {request.trajectory_file, request.png_file});
   LocalmapSetup setup{options_from_file(request.config_file)};
   if (!request.matcher.empty()) {
     const std::optional<MatcherKind> kind = matcher_kind_of(request.matcher);

@@ -19,7 +19,8 @@ using clients::PixelPoint;
 
 constexpr int kTile = 320;
 constexpr int kCaption = 44;
-constexpr double kHeight = 9.0;  // of letters
+constexpr double kHeight = 9.0;      // of letters
+constexpr double kStarHeight = 5.0;  // of those of a star
 constexpr Colour kFree{255, 255, 255};
 constexpr Colour kUnknown{205, 208, 212};
 constexpr Colour kWall{30, 30, 30};
@@ -85,6 +86,14 @@ void draw_robot(const Pose2& T_place_robot, const Tile& tile, Canvas* canvas) {
   canvas->line(tile.at(at), tile.at(T_place_robot * Vector2d(0.5, 0.0)), {kRobot, 1.4});
 }
 
+/// As much of a text as fits into a tile.
+std::string fitting(std::string text, double height) {
+  while (!text.empty() && Canvas::text_width(height, text) > kTile - 8) {
+    text.pop_back();
+  }
+  return text;
+}
+
 std::string in_one_line(const std::string& text) {
   std::string line;
   for (const char c : text) {
@@ -111,13 +120,15 @@ void draw_visit(const PlaceVisit& visit,
   draw_robot(visit.T_place_robot_at_exit, tile, canvas);
   const clients::Pen ink{{0, 0, 0}, 1.1};
   canvas->text({tile.left + 4, tile.top + kTile + 14}, kHeight,
-               "visit " + std::to_string(number) + ", in by " +
-                   std::to_string(visit.arrival_gateway) + ", out by " +
-                   std::to_string(visit.departure_gateway) + ", distinct " +
-                   fixed(visit.neighbourhood.distinctiveness, 2),
+               fitting("visit " + std::to_string(number) + ", in by " +
+                           std::to_string(visit.arrival_gateway) + ", out by " +
+                           std::to_string(visit.departure_gateway) + ", distinct " +
+                           fixed(visit.neighbourhood.distinctiveness, 2),
+                       kHeight),
                ink);
-  canvas->text({tile.left + 4, tile.top + kTile + 30}, 0.7 * kHeight,
-               in_one_line(small_scale_text(visit.neighbourhood.star, 0)), ink);
+  canvas->text({tile.left + 4, tile.top + kTile + 30}, kStarHeight,
+               fitting(in_one_line(small_scale_text(visit.neighbourhood.star, 0)), kStarHeight),
+               ink);
 }
 
 Tile tile_of(const PlaceVisit& visit, std::size_t i, std::size_t columns) {

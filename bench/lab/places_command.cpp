@@ -179,6 +179,7 @@ void print(const PlacesRun& run, std::ostream& out) {
 }
 
 int perceive(const PlacesRequest& request, const Streams& streams) {
+  check_outputs({request.log, request.config_file}, {request.png_file});
   const DaemonOptions options = options_from_file(request.config_file);
   const PlacesRun run = run_places(request.log, options);
   if (request.as_json) {

@@ -11,6 +11,7 @@
 
 #include "bench/lab/rooms_picture.hpp"
 #include "bench/lab/rooms_score.hpp"
+#include "bench/lab/text.hpp"
 #include "clients/common/failure.hpp"
 #include "clients/common/text.hpp"
 #include "grid/medial_axis.hpp"
@@ -45,6 +46,8 @@ void check(const RoomsRequest& request) {
   if (!request.truths.empty() && request.truths.size() != request.maps.size()) {
     throw Failure(ExitCode::kUsage, "--truth: expected one for every map, in the same order");
   }
+  check_outputs(request.maps, {request.png_file});
+  check_outputs(request.truths, {request.png_file});
   if (!request.png_file.empty() && request.maps.size() != 1) {
     throw Failure(ExitCode::kUsage, "--png: draws one map, not several");
   }
@@ -87,6 +90,9 @@ RoomsRun run_one(const RoomsRequest& request, std::size_t which) {
       throw Failure(ExitCode::kBadData, file + ": expected a picture as large as the map, " +
                                             std::to_string(grid.geometry().width) + " x " +
                                             std::to_string(grid.geometry().height));
+    }
+    if (truth.cells.empty()) {
+      throw Failure(ExitCode::kBadData, file + ": expected white rooms, found none");
     }
     run.score = score_of(run.graph, truth);
   }

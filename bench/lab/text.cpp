@@ -1,5 +1,10 @@
 #include "bench/lab/text.hpp"
 
+#include <filesystem>
+#include <system_error>
+
+#include "clients/common/failure.hpp"
+
 namespace cairn::lab {
 
 std::string grouped(std::int64_t number) {
@@ -9,6 +14,28 @@ std::string grouped(std::int64_t number) {
     digits.insert(end - 3, 1, ',');
   }
   return digits;
+}
+
+void check_outputs(const std::vector<std::string>& inputs,
+                   const std::vector<std::string>& outputs) {
+  const auto is_same = [](const std::string& a, const std::string& b) {
+    std::error_code unknown;
+    return a == b || std::filesystem::equivalent(a, b, unknown);
+  };
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    for (const std::string& input : inputs) {
+      if (!outputs[i].empty() && !input.empty() && is_same(outputs[i], input)) {
+        throw clients::Failure(clients::ExitCode::kUsage,
+                               outputs[i] + " is read: choose another name to write to");
+      }
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      if (!outputs[i].empty() && is_same(outputs[i], outputs[k])) {
+        throw clients::Failure(clients::ExitCode::kUsage,
+                               outputs[i] + " is to be written twice: choose two names");
+      }
+    }
+  }
 }
 
 }  // namespace cairn::lab

@@ -22,4 +22,8 @@ template <typename Number>
   return text;
 }
 
+/// Throws clients::Failure(kUsage) where an output would be written over a file that is read, or
+/// over another output. Empty names are none.
+void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
+
 }  // namespace cairn::lab

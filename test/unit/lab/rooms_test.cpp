@@ -91,9 +91,20 @@ TEST_F(LabRooms, RefusesAWrongCommandLine) {
   EXPECT_EQ(run({"rooms", map_, map_, "--truth", truth_}).status, 64);
   EXPECT_EQ(run({"rooms", map_, map_, "--png", png_}).status, 64);
   EXPECT_EQ(run({"rooms", map_, "--cell", "0"}).status, 64);
+  const Ran overwritten = run({"rooms", map_, "--png", map_});
+  EXPECT_EQ(overwritten.status, 64);
+  EXPECT_THAT(overwritten.errors, HasSubstr("is read: choose another name"));
   const Ran ran = run({"rooms", map_, "--max-narrowing", "2"});
   EXPECT_EQ(ran.status, 64);
   EXPECT_THAT(ran.errors, HasSubstr("max_narrowing"));
+}
+
+TEST_F(LabRooms, RefusesATruthWithoutRooms) {
+  const std::string all_wall = (folder_ / "wall.pgm").string();
+  std::ofstream(all_wall) << "P5 123 62 255\n" << std::string(std::size_t{123} * 62, '\0');
+  const Ran ran = run({"rooms", map_, "--truth", all_wall});
+  EXPECT_EQ(ran.status, 65);
+  EXPECT_THAT(ran.errors, HasSubstr("expected white rooms"));
 }
 
 TEST_F(LabRooms, RefusesBadPicturesByName) {
