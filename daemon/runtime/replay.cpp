@@ -294,6 +294,11 @@ ExitCode replay(const DaemonOptions& options,
     complain(stored.error().message);
     return ExitCode::kCannotCreate;
   }
+  if (replay.tally().scans == 0) {
+    complain("no scan in " + logs.front() + (logs.size() > 1 ? " and the others" : "") +
+             ", on any channel that the configuration names as a laser's");
+    return ExitCode::kBadData;
+  }
   return is_sound ? ExitCode::kOk : ExitCode::kBadData;
 }
 

@@ -71,6 +71,14 @@ TEST_F(ReplayTest, AnEmptyOrMissingLogIsBadData) {
   EXPECT_EQ(replay((folder_ / "missing.clf").string(), "b").status, 65);
 }
 
+TEST_F(ReplayTest, ALogWithoutScansIsBadData) {
+  write_file(folder_ / "odometry.clf",
+             "ODOM 0 0 0 0 0 0 1.0 robot 1.0\nODOM 0 0 0 0 0 0 2.0 robot 2.0\n");
+  const Finished result = replay((folder_ / "odometry.clf").string(), "a");
+  EXPECT_EQ(result.status, 65);
+  EXPECT_THAT(result.errors, HasSubstr("no scan in"));
+}
+
 TEST_F(ReplayTest, ABrokenCarmenLineIsToldWithItsNumber) {
   write_file(folder_ / "bad.clf",
              "ODOM 0 0 0 0 0 0 1.0 robot 1.0\nFLASER 3 1.0 2.0\nODOM 0 0 0 0 0 0 2.0 robot 2.0\n");
