@@ -51,20 +51,27 @@ bool is_near_node(const LocalView& view, const AxisSite& site) {
   });
 }
 
+/// The gateways of the first reading but for unsure ones of some kind.
+template <typename Kind>
+std::vector<Gateway> gateways_without(const PlaceNeighbourhood& place, Kind is_of_kind) {
+  std::vector<Gateway> kept;
+  for (const Gateway& gateway : place.gateways) {
+    const auto unsure = std::find_if(
+        place.unsure.begin(), place.unsure.end(),
+        [&](const UnsureGateway& one) { return one.gateway.basis_points == gateway.basis_points; });
+    if (unsure == place.unsure.end() || !is_of_kind(*unsure)) {
+      kept.push_back(gateway);
+    }
+  }
+  return kept;
+}
+
 /// A place lets the robot choose, turn, or return. Doorways through which it has not
 /// gone make no place.
 bool is_place(const PlaceNeighbourhood& place, const PlaceOptions& options) {
-  std::vector<Gateway> gateways;
-  for (const Gateway& gateway : place.gateways) {
-    const bool is_doubtful =
-        std::any_of(place.unsure.begin(), place.unsure.end(), [&](const UnsureGateway& one) {
-          return one.gateway.basis_points == gateway.basis_points &&
-                 (one.is_doorway || one.log_odds < kLeastLogOddsOfPlace);
-        });
-    if (!is_doubtful) {
-      gateways.push_back(gateway);
-    }
-  }
+  const std::vector<Gateway> gateways = gateways_without(place, [](const UnsureGateway& one) {
+    return one.is_doorway || one.log_odds < kLeastLogOddsOfPlace;
+  });
   if (gateways.size() != 2) {
     return !gateways.empty();
   }
@@ -108,16 +115,7 @@ PlaceNeighbourhood neighbourhood_of(const LocalView& view,
 }  // namespace
 
 std::vector<Gateway> sure_gateways(const PlaceNeighbourhood& place) {
-  std::vector<Gateway> sure;
-  for (const Gateway& gateway : place.gateways) {
-    const bool is_unsure = std::any_of(
-        place.unsure.begin(), place.unsure.end(),
-        [&](const UnsureGateway& one) { return one.gateway.basis_points == gateway.basis_points; });
-    if (!is_unsure) {
-      sure.push_back(gateway);
-    }
-  }
-  return sure;
+  return gateways_without(place, [](const UnsureGateway&) { return true; });
 }
 
 PlaceNeighbourhood transformed(const Pose2& T_to_from, const PlaceNeighbourhood& neighbourhood) {
