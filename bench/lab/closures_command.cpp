@@ -29,10 +29,12 @@ struct ClosuresRequest {
   std::string config_file;
   double same_m = 2.5;
   bool as_json = false;
+  bool says_why = false;
 };
 
 struct MappedLog {
   std::vector<JudgedVisit> visits;
+  std::vector<std::string> decisions;  ///< By visit: what it might have been, and what decided.
   std::int64_t guarantee_given_up_at = -1;
   double probability = 0.0;
   std::string damage;
@@ -50,6 +52,16 @@ std::optional<Vector2d> place_by_reference(const Experience& experience,
   }
   return *T_reference_robot *
          (fix.T_lpm_robot.inverse() * visit.perceived.T_lpm_place.translation());
+}
+
+/// All that a visit might have been to the best map, one to a line, what it was taken for first.
+std::string decision_at(const HypothesisTree& tree, VisitId visit) {
+  std::string taken;
+  std::string others;
+  for (const Considered& one : tree.explanation(tree.best().id, visit)) {
+    (one.is_taken ? taken : others) += "    " + one.sentence + '\n';
+  }
+  return taken + others;
 }
 
 MappedLog map_log(const ClosuresRequest& request, const std::vector<ReferencePose>& reference) {
@@ -81,6 +93,9 @@ MappedLog map_log(const ClosuresRequest& request, const std::vector<ReferencePos
     mapped.visits.push_back(
         {state->place_of_visit[v], place_by_reference(service.experience(), visits[v], reference)});
   }
+  for (std::size_t v = 0; request.says_why && v < mapped.visits.size(); ++v) {
+    mapped.decisions.push_back(decision_at(service.tree(), VisitId{static_cast<int>(v)}));
+  }
   mapped.guarantee_given_up_at = state->guarantee_given_up_at;
   mapped.probability = state->probability;
   mapped.damage = reader->damage().value_or("");
@@ -110,7 +125,8 @@ void print(const MappedLog& mapped, const ClosureReport& report, std::ostream& o
   const auto list = [&](const char* what, const std::vector<WrongVisit>& wrong) {
     for (const WrongVisit& visit : wrong) {
       out << "  visit " << visit.visit << what << visit.other << ", " << fixed(visit.distance_m, 1)
-          << " m away by the reference\n";
+          << " m away by the reference\n"
+          << (mapped.decisions.empty() ? "" : mapped.decisions[visit.visit]);
     }
   };
   out << report.visits << " visits to " << report.places << " places";
@@ -167,7 +183,9 @@ void add_closures_command(CLI::App& app, const Streams& streams, int* status) {
                    "Visits are to one place if by the reference they lie within this, m")
       ->check(CLI::Range(0.1, 100.0))
       ->capture_default_str();
-  command->add_flag("--json", request->as_json, "Print JSON");
+  command->add_flag("--why", request->says_why,
+                    "Of each wrong visit all that it might have been to the map, and what decided");
+  command->add_flag("--json", request->as_json, "Print JSON")->excludes("--why");
   command->callback([request, streams, status] { *status = judge_log(*request, streams); });
 }
 

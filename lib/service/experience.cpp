@@ -47,6 +47,12 @@ Visit Experience::anchored(PlaceVisit visit) const {
   return {std::move(visit), anchor};
 }
 
+void Experience::continue_last_visit(TimePoint left, int departure_gateway) {
+  CAIRN_CHECK(!visits_.empty());
+  visits_.back().perceived.left = left;
+  visits_.back().perceived.departure_gateway = departure_gateway;
+}
+
 bool Experience::is_way_unknown_since_last_visit() const {
   const auto first = visits_.empty() ? std::ptrdiff_t{0}
                                      : static_cast<std::ptrdiff_t>(visits_.back().anchor_scan) + 1;

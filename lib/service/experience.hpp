@@ -57,6 +57,12 @@ class Experience {
   /// @pre its anchor is not before the last visit's and is a scan that has been added
   void add(Visit visit);
 
+  /// The robot turned around on its way and came back to the last visit's place by the gateway by
+  /// which it had left: that visit goes on, until the robot leaves by another gateway or none.
+  /// @param departure_gateway in the numbers of the last visit; -1: the robot is still there
+  /// @pre there is a visit
+  void continue_last_visit(TimePoint left, int departure_gateway);
+
   /// Whether the robot may have been carried anywhere since the last visit.
   [[nodiscard]] bool is_way_unknown_since_last_visit() const;
 

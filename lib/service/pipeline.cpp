@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/check.hpp"
+#include "service/turn_around.hpp"
 
 namespace cairn {
 namespace {
@@ -186,6 +187,10 @@ void MappingService::Pipeline::take_up(Visit visit, Updates* updates) {
     return;
   }
   const VisitId id{static_cast<int>(experience_.visits().size())};
+  if (turns_around(visit)) {
+    updates->visits.push_back(std::move(visit));
+    return;
+  }
   View view{visit.perceived.neighbourhood.star, std::max(visit.perceived.arrival_gateway, 0), id};
   for (const StarReading& reading : visit.perceived.neighbourhood.others) {
     if (validate(Reading{reading.star, reading.gateways, reading.log_likelihood},
@@ -233,9 +238,36 @@ bool MappingService::Pipeline::is_known(const PlaceVisit& visit) const {
   const PlaceVisit& last = experience_.visits().back().perceived;
   const bool is_at_its_spot =
       (visit.T_lpm_place.translation() - last.T_lpm_place.translation()).norm() <
-      std::max(options_.place.same_spot_m, 0.5 * last.neighbourhood.radius_m);
+      spot_of_last_visit_m();
   return is_at_its_spot && !experience_.is_way_unknown_since_last_visit() &&
          (resumed_ || last.departure_gateway < 0);
+}
+
+double MappingService::Pipeline::spot_of_last_visit_m() const {
+  return std::max(options_.place.same_spot_m,
+                  0.5 * experience_.visits().back().perceived.neighbourhood.radius_m);
+}
+
+bool MappingService::Pipeline::turns_around(const Visit& visit) {
+  if (experience_.visits().empty() || experience_.is_way_unknown_since_last_visit()) {
+    return false;
+  }
+  // Within this travel the local map still has the place where it was, so that its frame has not
+  // drifted.
+  const std::vector<PerceivedScan>& scans = experience_.scans();
+  double way_m = 0.0;
+  for (std::size_t i = experience_.visits().back().anchor_scan + 1; i <= visit.anchor_scan; ++i) {
+    way_m += scans[i].fix.motion.mean.translation().norm();
+  }
+  if (way_m > options_.lpm.map.memory_travel_m) {
+    return false;
+  }
+  const std::optional<int> departure = departure_after_turning_around(
+      experience_.visits().back().perceived, visit.perceived, spot_of_last_visit_m());
+  if (departure) {
+    experience_.continue_last_visit(visit.perceived.left, *departure);
+  }
+  return departure.has_value();
 }
 
 void MappingService::Pipeline::enter(Stage stage) const {

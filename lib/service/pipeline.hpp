@@ -80,6 +80,11 @@ class MappingService::Pipeline {
   /// Whether this is the last visit, told once more: after a restart the detector sees its place
   /// again, and so it does where the input paused while the robot was there.
   [[nodiscard]] bool is_known(const PlaceVisit& visit) const;
+  /// Two readings of the last visit's place lie less apart. @pre there is one
+  [[nodiscard]] double spot_of_last_visit_m() const;
+  /// Whether the robot turned around on its way and is back at the last visit's place: that visit
+  /// is continued then.
+  bool turns_around(const Visit& visit);
 
   // The map: pipeline_map.cpp.
 
