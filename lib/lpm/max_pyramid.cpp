@@ -32,10 +32,10 @@ void CellOffsets::add(Cell cell, int map_width) {
   indices.push_back(cell.y * map_width + cell.x);
 }
 
-MaxPyramid::MaxPyramid(const GridGeometry& geometry, std::vector<std::uint8_t> values)
-    : geometry_(geometry), levels_(kLevels) {
+MaxPyramid::MaxPyramid(const GridGeometry& geometry, std::vector<std::uint8_t> values, int levels)
+    : geometry_(geometry), levels_(static_cast<std::size_t>(levels)) {
   levels_[0] = std::move(values);
-  for (std::size_t level = 1; level < kLevels; ++level) {
+  for (std::size_t level = 1; level < levels_.size(); ++level) {
     widen(levels_[level - 1], geometry, 1 << (level - 1), &levels_[level]);
   }
 }

@@ -26,8 +26,9 @@ class MaxPyramid {
   static constexpr int kLevels = 7;
 
   MaxPyramid() = default;
+  /// @param levels how many are made, [1, kLevels]; the others must not be asked for
   /// @pre values.size() == geometry.cell_count()
-  MaxPyramid(const GridGeometry& geometry, std::vector<std::uint8_t> values);
+  MaxPyramid(const GridGeometry& geometry, std::vector<std::uint8_t> values, int levels = kLevels);
 
   /// The maximum over the square of 2^level cells a side, as far as it lies on the map.
   /// @pre geometry.contains(low), level in [0, kLevels)

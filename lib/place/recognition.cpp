@@ -89,18 +89,25 @@ Pose2 aligned_by_gateways(const PlaceVisit& known,
   return laid_on(known.neighbourhood.gateways, visit.neighbourhood.gateways, pairs);
 }
 
+Recognition recognize(const MatchableMap& known,
+                      const MatchableMap& visit,
+                      const Pose2& T_known_visit_by_gateways,
+                      const MapMatchOptions& options) {
+  if (known.geometry().cell_m != visit.geometry().cell_m) {
+    // Taken with other settings: the maps cannot be laid on each other, the gateways can.
+    const Matrix3d covariance = Eigen::Vector3d(0.25, 0.25, 0.04).asDiagonal();
+    return {{T_known_visit_by_gateways, covariance}, 0.0};
+  }
+  const MapMatch match = match_maps(known, visit, T_known_visit_by_gateways, options);
+  return {match.T_reference_other, match.log_likelihood_ratio};
+}
+
 Recognition recognize(const PlaceVisit& known,
                       const PlaceVisit& visit,
                       const std::vector<GatewayPair>& pairs,
                       const MapMatchOptions& options) {
-  const Pose2 T_known_visit = aligned_by_gateways(known, visit, pairs);
-  if (known.lpm.geometry().cell_m != visit.lpm.geometry().cell_m) {
-    // Taken with other settings: the maps cannot be laid on each other, the gateways can.
-    const Matrix3d covariance = Eigen::Vector3d(0.25, 0.25, 0.04).asDiagonal();
-    return {{T_known_visit, covariance}, 0.0};
-  }
-  const MapMatch match = match_maps(known.lpm, visit.lpm, T_known_visit, options);
-  return {match.T_reference_other, match.log_likelihood_ratio};
+  return recognize(MatchableMap(known.lpm, options), MatchableMap(visit.lpm, options),
+                   aligned_by_gateways(known, visit, pairs), options);
 }
 
 }  // namespace cairn

@@ -30,13 +30,19 @@ struct GatewayPair {
                                                        int visit_count,
                                                        GatewayPair pair);
 
-/// Compares a visit with a known one whose gateways correspond: first the gateways are laid on each
-/// other, then the maps are matched from there.
+/// Compares the local map of a visit with that of a known one whose gateways correspond: the
+/// gateways are laid on each other, by aligned_by_gateways(), and the maps are matched from there.
 ///
 /// Source: Kuipers et al., ICRA 2004, Sec. III-D: matching views is (a) isomorphic local topologies
 /// and (b) matching LPMs, "with alignment given qualitatively by the corresponding gateways"; the
 /// pose is L_i of Modayil et al., IROS 2004, Sec. IV-B.
 /// @pre at least one pair, of gateways that exist
+[[nodiscard]] Recognition recognize(const MatchableMap& known,
+                                    const MatchableMap& visit,
+                                    const Pose2& T_known_visit_by_gateways,
+                                    const MapMatchOptions& options);
+
+/// The same for visits that are compared once.
 [[nodiscard]] Recognition recognize(const PlaceVisit& known,
                                     const PlaceVisit& visit,
                                     const std::vector<GatewayPair>& pairs,

@@ -5,7 +5,6 @@
 #include <optional>
 
 namespace cairn {
-namespace {}  // namespace
 
 std::vector<GatewayPair> VisitMatcher::pairs(VisitId known, VisitId visit, GatewayPair pair) const {
   const std::vector<Visit>& visits = experience_.visits();
@@ -23,10 +22,25 @@ const Recognition& VisitMatcher::compare(VisitId known, VisitId visit, GatewayPa
     return found->second;
   }
   const std::vector<Visit>& visits = experience_.visits();
-  return compared_
-      .emplace(key, recognize(visits[known.index()].perceived, visits[visit.index()].perceived, all,
-                              options_))
+  const Pose2 T_known_visit =
+      aligned_by_gateways(visits[known.index()].perceived, visits[visit.index()].perceived, all);
+  return compared_.emplace(key, recognize(map_of(known), map_of(visit), T_known_visit, options_))
       .first->second;
+}
+
+const MatchableMap& VisitMatcher::map_of(VisitId visit) const {
+  const auto found = ready_.find(visit);
+  if (found != ready_.end()) {
+    found->second.used = ++uses_;
+    return found->second.map;
+  }
+  if (ready_.size() >= kMaxMapsReady) {
+    ready_.erase(std::min_element(ready_.begin(), ready_.end(), [](const auto& a, const auto& b) {
+      return a.second.used < b.second.used;
+    }));
+  }
+  const OccupancyGrid& lpm = experience_.visits()[visit.index()].perceived.lpm;
+  return ready_.emplace(visit, ReadyMap{MatchableMap(lpm, options_), ++uses_}).first->second.map;
 }
 
 const GaussianPose& VisitMatcher::dead_reckoned(VisitId known, VisitId visit) const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -40,6 +42,10 @@ class VisitMatcher {
   /// visit between them cannot be matched with its place.
   [[nodiscard]] std::vector<TravelConstraint> constraints(const TopologicalMap& map) const;
 
+  /// So many visits' maps are kept ready for comparison; the least recently used ones are dropped,
+  /// and worked out anew when they are needed. A map of 8 m x 8 m takes about 0.3 MB.
+  static constexpr std::size_t kMaxMapsReady = 256;
+
   /// Dead reckoning is given this many standard deviations before it refutes. Generous: slip and
   /// pushes make it wrong by more than its covariance says.
   static constexpr double kRefutedAt_sigmas = 20.0;
@@ -53,9 +59,19 @@ class VisitMatcher {
                                                              VisitId visit) const;
   [[nodiscard]] const GaussianPose& dead_reckoned(VisitId known, VisitId visit) const;
 
+  /// @return valid until kMaxMapsReady others were asked for
+  [[nodiscard]] const MatchableMap& map_of(VisitId visit) const;
+
+  struct ReadyMap {
+    MatchableMap map;
+    std::int64_t used = 0;  ///< Greater is later.
+  };
+
   const Experience& experience_;
   MapMatchOptions options_;
   // Memos.
+  mutable std::map<VisitId, ReadyMap> ready_;
+  mutable std::int64_t uses_ = 0;
   mutable std::map<std::tuple<VisitId, VisitId, GatewayPair>, Recognition> compared_;
   mutable std::map<std::pair<VisitId, VisitId>, GaussianPose> dead_reckoned_;
 };
