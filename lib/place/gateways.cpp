@@ -113,17 +113,16 @@ bool is_between_two_walls(const LocalView& view, const Gateway& line) {
                      [&](const Vector2d& p) { return is_near_wall(view, p, kBehindCorner_m); });
 }
 
-/// Of the way along walls that makes an opening so wide a passage.
-double depth_of(double width_m, const PlaceOptions& options) {
-  return std::max(options.passage_depth_m, kDepthPerWidth * width_m);
-}
-
 /// Whether there is no doubt that a passage is one: it was seen to its end, or far enough, for most
 /// of it on both sides.
 bool is_plain(const Passage& passage, double enough_m) {
   return passage.goes_beyond_map || passage.to_end_m >= 0.5 * enough_m ||
          (passage.along_wall_m >= enough_m && passage.between_walls_m >= kPlainShare * enough_m);
 }
+
+/// Of the depth of a passage of which there is no doubt, where so much was seen a passage and an
+/// alcove are as likely: who turns into another corridor sees little of those beside and behind.
+constexpr double kEvenShare = 0.6;
 
 /// The farther walls were seen along it, the likelier an opening is a passage; a doorway may as
 /// well lead into a closet.
@@ -133,9 +132,9 @@ double log_odds_of_passage(const Passage& passage,
                            const PlaceOptions& options) {
   constexpr double kPerMetre = 2.0;
   constexpr double kLessForDoorway = 2.0;
-  const double enough_m = depth_of(width_m, options);
+  const double enough_m = passage_depth_m(width_m, options);
   constexpr double kMost = 2.0;
-  return std::clamp(kPerMetre * (passage.along_wall_m - enough_m), -kMost, kMost) -
+  return std::clamp(kPerMetre * (passage.along_wall_m - kEvenShare * enough_m), -kMost, kMost) -
          (is_doorway ? kLessForDoorway : 0.0);
 }
 
@@ -145,6 +144,10 @@ double bearing_from(const Vector2d& center, const Gateway& gateway) {
 }
 
 }  // namespace
+
+double passage_depth_m(double width_m, const PlaceOptions& options) {
+  return std::max(options.passage_depth_m, kDepthPerWidth * width_m);
+}
 
 WayOut way_out(const LocalView& view,
                const WalledLengths& walled,
@@ -174,7 +177,7 @@ WayOut way_out(const LocalView& view,
       std::any_of(view.memory.gateways.begin(), view.memory.gateways.end(),
                   [&](const Gateway& known) { return is_same_gateway(known, *line); });
   const double enough = was_gateway ? kEnoughToStay : 1.0;
-  const bool is_plain_way = is_plain(passage, enough * depth_of(line->width_m, options));
+  const bool is_plain_way = is_plain(passage, enough * passage_depth_m(line->width_m, options));
   const bool is_doorway = line->width_m < options.doorway_below_m;
   if ((is_walled && !is_doorway && is_plain_way) ||
       is_driven_through(*line, view.memory.robot_way)) {

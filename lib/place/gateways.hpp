@@ -21,6 +21,9 @@ struct WayOut {
   bool is_undecided = false;
 };
 
+/// How far walls must be seen along the way behind an opening so wide for it to be a passage.
+[[nodiscard]] double passage_depth_m(double width_m, const PlaceOptions& options);
+
 /// Looks for the gateway on a way: its first constriction, with passage beyond it, between walls
 /// for some depth; or through which the robot has gone. A way that ends at walls soon is an alcove
 /// and no gateway.

@@ -18,8 +18,9 @@ namespace {
 /// gateways decide.
 constexpr double kWeakCorner = 0.8;
 
-/// More than an even chance that an opening is a gateway makes a place.
-constexpr double kLeastLogOddsOfPlace = 1.0;
+/// Walls seen so much farther than the depth that makes a passage: an opening makes a place by
+/// itself. At a place that is one anyway less is enough for a gateway.
+constexpr double kBeyondDoubt_m = 0.5;
 
 /// The mean of the nodes where most edges meet: where ways meet rather than where the axis turns or
 /// ends, if there is any such.
@@ -69,8 +70,9 @@ std::vector<Gateway> gateways_without(const PlaceNeighbourhood& place, Kind is_o
 /// A place lets the robot choose, turn, or return. Doorways through which it has not
 /// gone make no place.
 bool is_place(const PlaceNeighbourhood& place, const PlaceOptions& options) {
-  const std::vector<Gateway> gateways = gateways_without(place, [](const UnsureGateway& one) {
-    return one.is_doorway || one.log_odds < kLeastLogOddsOfPlace;
+  const std::vector<Gateway> gateways = gateways_without(place, [&](const UnsureGateway& one) {
+    return one.is_doorway || one.gateway.seen_beyond_m <
+                                 passage_depth_m(one.gateway.width_m, options) + kBeyondDoubt_m;
   });
   if (gateways.size() != 2) {
     return !gateways.empty();
