@@ -134,10 +134,18 @@ std::vector<PlaceNeighbourhood> find_places(const OccupancyGrid& grid,
                                             const Vector2d& p_grid_robot,
                                             const PlaceOptions& options,
                                             PlaceMemory memory) {
-  LocalView view = look_around(grid, p_grid_robot, options);
+  LocalViewer viewer;
+  return find_places(grid, p_grid_robot, options, std::move(memory), &viewer);
+}
+
+std::vector<PlaceNeighbourhood> find_places(const OccupancyGrid& grid,
+                                            const Vector2d& p_grid_robot,
+                                            const PlaceOptions& options,
+                                            PlaceMemory memory,
+                                            LocalViewer* viewer) {
+  LocalView view =
+      viewer->look_around(grid, p_grid_robot, options, kWeakCorner * options.min_corner_rad);
   view.memory = std::move(memory);
-  const double cell_m = view.grid.geometry().cell_m;
-  view.axis = with_corner_nodes(view.axis, cell_m, kWeakCorner * options.min_corner_rad);
   const WalledLengths walled(view);
   std::vector<PlaceNeighbourhood> places;
   for (const AxisSite& site : axis_sites(view, options)) {
