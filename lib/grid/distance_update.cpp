@@ -48,6 +48,34 @@ CellState state_of(OccupancyGrid::LogOdds log_odds) {
   return log_odds < OccupancyGrid::kFreeBelow ? CellState::kFree : CellState::kUnknown;
 }
 
+/// One row on the way up: how many rows below the nearest wall lies.
+/// @param last the same for the row before; of this row in the end
+void look_down(const std::uint8_t* is_free,
+               std::size_t width,
+               std::int32_t* last,
+               std::int32_t* down) {
+  for (std::size_t x = 0; x < width; ++x) {
+    const std::int32_t rows = (last[x] + 1) * std::int32_t{is_free[x]};
+    last[x] = rows;
+    down[x] = rows;
+  }
+}
+
+/// One row on the way down: where the nearest wall lies, negative: below.
+/// @param nearest how many rows below the nearest wall lies
+void look_up(const std::uint8_t* is_free,
+             std::size_t width,
+             std::int32_t* last,
+             std::int32_t* nearest) {
+  for (std::size_t x = 0; x < width; ++x) {
+    const std::int32_t up = (last[x] + 1) * std::int32_t{is_free[x]};
+    const std::int32_t down = nearest[x];
+    const std::int32_t rows = up < down ? up : -down;
+    last[x] = up;
+    nearest[x] = std::abs(rows) >= kNone ? kNone : rows;
+  }
+}
+
 /// Where the parabola at `q` gets below the one at `p`, for p < q.
 double intersection(int p, double height_p, int q, double height_q) {
   const double rise = height_q + static_cast<double>(q) * q - height_p - static_cast<double>(p) * p;
@@ -123,30 +151,15 @@ void DistanceUpdate::update_rows(Cell moved) {
 void DistanceUpdate::find_nearest_in_columns() {
   const std::size_t width = above_.size();
   const std::size_t height = changes_.size();
+  std::transform(result_.state_.begin(), result_.state_.end(), is_free_.begin(),
+                 [](CellState state) -> std::uint8_t { return state == CellState::kFree ? 1 : 0; });
   std::fill(above_.begin(), above_.end(), kNone);
   for (std::size_t y = 0; y < height; ++y) {
-    const CellState* const state = result_.state_.data() + y * width;
-    std::uint8_t* const is_free = is_free_.data() + y * width;
-    std::int32_t* const down = to_nearest_.data() + y * width;
-    for (std::size_t x = 0; x < width; ++x) {
-      is_free[x] = state[x] == CellState::kFree ? 1 : 0;
-    }
-    for (std::size_t x = 0; x < width; ++x) {
-      above_[x] = is_free[x] != 0 ? above_[x] + 1 : 0;
-      down[x] = above_[x];
-    }
+    look_down(is_free_.data() + y * width, width, above_.data(), to_nearest_.data() + y * width);
   }
   std::fill(above_.begin(), above_.end(), kNone);
   for (std::size_t y = height; y-- > 0;) {
-    const std::uint8_t* const is_free = is_free_.data() + y * width;
-    std::int32_t* const nearest = to_nearest_.data() + y * width;
-    for (std::size_t x = 0; x < width; ++x) {
-      const std::int32_t up = is_free[x] != 0 ? above_[x] + 1 : 0;
-      const std::int32_t down = nearest[x];
-      const std::int32_t signed_rows = up < down ? up : -down;
-      above_[x] = up;
-      nearest[x] = (up < down ? up : down) >= kNone ? kNone : signed_rows;
-    }
+    look_up(is_free_.data() + y * width, width, above_.data(), to_nearest_.data() + y * width);
   }
 }
 

@@ -46,9 +46,8 @@ void FreeComponent::mark_passable(const DistanceTransform& distances, double min
     return;
   }
   const auto least = static_cast<std::int32_t>(least_squared);
-  for (std::size_t i = 0; i < squared.size(); ++i) {
-    passable_[i] = squared[i] >= least ? 1 : 0;
-  }
+  std::transform(squared.begin(), squared.end(), passable_.begin(),
+                 [least](std::int32_t value) -> std::uint8_t { return value >= least ? 1 : 0; });
 }
 
 std::size_t FreeComponent::nearest_passable(int x0, int y0, int slack_cells) const {

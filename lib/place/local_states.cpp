@@ -119,9 +119,11 @@ void LocalStates::fill_stripes() {
     const std::uint8_t* const below = left - stride;
     const std::uint8_t* const above = left + stride;
     for (std::size_t x = 0; x < width; ++x) {
-      const int is_between = (left[x] & left[x + 2]) | (below[x + 1] & above[x + 1]) |
-                             (below[x] & above[x + 2]) | (above[x] & below[x + 2]);
-      row[x] = row[x] == CellState::kUnknown && is_between != 0 ? CellState::kFree : row[x];
+      const auto is_between =
+          static_cast<std::uint8_t>((left[x] & left[x + 2]) | (below[x + 1] & above[x + 1]) |
+                                    (below[x] & above[x + 2]) | (above[x] & below[x + 2]));
+      const CellState filled = is_between != 0 ? CellState::kFree : CellState::kUnknown;
+      row[x] = row[x] == CellState::kUnknown ? filled : row[x];
     }
   }
 }
@@ -136,9 +138,9 @@ void LocalStates::clear_specks(double speck_m) {
   std::size_t below = 0;
   for (int y = 0; y < geometry.height; ++y) {
     const CellState* const row = grid_.cells().data() + static_cast<std::size_t>(y) * width;
-    for (std::size_t x = 0; x < width; ++x) {
-      rows_[x] = row[x] != CellState::kFree ? 1 : 0;
-    }
+    std::transform(row, row + width, rows_.begin(), [](CellState state) -> std::uint8_t {
+      return state != CellState::kFree ? 1 : 0;
+    });
     for_each_run(rows_.data(), 0, width, [&](std::size_t first, std::size_t last) {
       add_piece(y, static_cast<int>(first), static_cast<int>(last) - 1, &below);
     });
@@ -198,22 +200,24 @@ void LocalStates::mark_walls() {
   for (std::size_t y = 0; y < height; ++y) {
     const CellState* const row = grid_.cells().data() + y * width;
     std::uint8_t* const near = rows_.data() + (y + kChink) * width;
-    for (std::size_t x = 0; x < width; ++x) {
-      padded_[x + kChink] = row[x] == CellState::kOccupied ? 1 : 0;
-    }
     const std::uint8_t* const from = padded_.data();
+    std::transform(row, row + width, padded_.begin() + kChink, [](CellState state) -> std::uint8_t {
+      return state == CellState::kOccupied ? 1 : 0;
+    });
     for (std::size_t x = 0; x < width; ++x) {
       near[x] = static_cast<std::uint8_t>(from[x] | from[x + 1] | from[x + 2] | from[x + 3] |
                                           from[x + 4]);
     }
   }
-  is_wall_.resize(width * height);
+  const std::size_t count = width * height;
+  is_wall_.resize(count);
   const CellState* const state = grid_.cells().data();
   const std::uint8_t* const near = rows_.data();
-  for (std::size_t i = 0; i < is_wall_.size(); ++i) {
+  std::uint8_t* const is_wall = is_wall_.data();
+  for (std::size_t i = 0; i < count; ++i) {
     const int is_near =
         near[i] | near[i + width] | near[i + 2 * width] | near[i + 3 * width] | near[i + 4 * width];
-    is_wall_[i] = state[i] != CellState::kFree && is_near != 0 ? 1 : 0;
+    is_wall[i] = static_cast<std::uint8_t>(is_near & (state[i] != CellState::kFree ? 1 : 0));
   }
 }
 
