@@ -59,7 +59,8 @@ void draw_axis(const PlaceVisit& visit,
                const PlaceOptions& options,
                const Tile& tile,
                Canvas* canvas) {
-  const LocalView view = look_around(visit.lpm, visit.neighbourhood.center, options);
+  LocalViewer viewer;
+  const LocalView view = viewer.look_around(visit.lpm, visit.neighbourhood.center, options, kPi);
   for (const AxisEdge& edge : view.axis.edges) {
     std::vector<PixelPoint> line;
     for (const Cell cell : edge.cells) {

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdlib>
+#include <utility>
 
 namespace cairn {
 namespace {
@@ -10,21 +13,20 @@ namespace {
 /// Walks over a skeleton and collects its nodes and edges.
 class AxisTracer {
  public:
-  AxisTracer(const CellMask& skeleton, const DistanceTransform& distances)
+  AxisTracer(const PaddedCells& skeleton,
+             std::vector<std::uint32_t> cells,
+             const DistanceTransform& distances)
       : skeleton_(skeleton),
         distances_(distances),
-        node_of_(skeleton.cells.size(), kNone),
-        walked_(skeleton.cells.size(), 0) {
-    for (std::size_t i = 0; i < skeleton.cells.size(); ++i) {
-      if (skeleton.cells[i] != 0) {
-        cells_.push_back(i);
-      }
-    }
+        cells_(std::move(cells)),
+        node_of_(skeleton.size(), kNone),
+        walked_(skeleton.size(), 0) {
+    std::sort(cells_.begin(), cells_.end());
   }
 
   MedialAxis trace() {
     for (const std::size_t i : cells_) {
-      if (node_of_[i] == kNone && neighbours(i).size() != 2) {
+      if (node_of_[i] == kNone && count_neighbours(i) != 2) {
         add_node(i);
       }
     }
@@ -38,7 +40,7 @@ class AxisTracer {
   }
 
  private:
-  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  static constexpr std::uint32_t kNone = static_cast<std::uint32_t>(-1);
   /// A bump on a node is no loop: a loop encloses at least a cell.
   static constexpr std::size_t kShortestLoop = 5;
 
@@ -57,29 +59,32 @@ class AxisTracer {
   };
 
   [[nodiscard]] Neighbours neighbours(std::size_t index) const {
-    const int x = static_cast<int>(index % static_cast<std::size_t>(skeleton_.width));
-    const int y = static_cast<int>(index / static_cast<std::size_t>(skeleton_.width));
+    const std::size_t stride = skeleton_.stride();
     Neighbours result;
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        if ((dx != 0 || dy != 0) && skeleton_.has(x + dx, y + dy)) {
-          result.add(skeleton_.index_of(x + dx, y + dy));
+    for (const std::size_t row : {index - stride, index, index + stride}) {
+      for (const std::size_t next : {row - 1, row, row + 1}) {
+        if (next != index && skeleton_.has(next)) {
+          result.add(next);
         }
       }
     }
     return result;
   }
 
+  [[nodiscard]] int count_neighbours(std::size_t index) const {
+    return std::popcount(skeleton_.neighbours_of(index));
+  }
+
   [[nodiscard]] Cell cell(std::size_t index) const {
-    const auto width = static_cast<std::size_t>(skeleton_.width);
     const Cell lower = distances_.window().lower;
-    return {lower.x + static_cast<int>(index % width), lower.y + static_cast<int>(index / width)};
+    const Cell at = skeleton_.cell_of(index);
+    return {lower.x + at.x, lower.y + at.y};
   }
 
   /// Makes a node of a cell and, where edges meet, of all such cells around it. It lies at the one
   /// with the most clearance.
   void add_node(std::size_t first) {
-    const std::size_t node = axis_.nodes.size();
+    const auto node = static_cast<std::uint32_t>(axis_.nodes.size());
     std::vector<std::size_t> open{first};
     node_of_[first] = node;
     std::size_t best = first;
@@ -91,8 +96,7 @@ class AxisTracer {
         best = index;
       }
       for (const std::size_t next : neighbours(index)) {
-        if (node_of_[next] == kNone && neighbours(index).size() > 2 &&
-            neighbours(next).size() > 2) {
+        if (node_of_[next] == kNone && count_neighbours(index) > 2 && count_neighbours(next) > 2) {
           node_of_[next] = node;
           open.push_back(next);
         }
@@ -132,10 +136,12 @@ class AxisTracer {
 
   void add_edge(std::size_t from, std::size_t to, const std::vector<std::size_t>& chain) {
     AxisEdge edge{from, to, {axis_.nodes[from].cell}, {}};
+    edge.cells.reserve(chain.size() + 2);
     for (const std::size_t index : chain) {
       edge.cells.push_back(cell(index));
     }
     edge.cells.push_back(axis_.nodes[to].cell);
+    edge.clearance_m.reserve(edge.cells.size());
     for (const Cell c : edge.cells) {
       edge.clearance_m.push_back(distances_.clearance_m(c));
     }
@@ -153,25 +159,36 @@ class AxisTracer {
     }
   }
 
-  const CellMask& skeleton_;
+  const PaddedCells& skeleton_;
   const DistanceTransform& distances_;
-  std::vector<std::size_t> cells_;  ///< Of the skeleton.
-  std::vector<std::size_t> node_of_;
+  std::vector<std::uint32_t> cells_;  ///< Of the skeleton, ascending.
+  std::vector<std::uint32_t> node_of_;
   std::vector<std::uint8_t> walked_;
   MedialAxis axis_;
 };
 
 }  // namespace
 
-MedialAxis traced_axis(const CellMask& skeleton, const DistanceTransform& distances) {
-  return AxisTracer(skeleton, distances).trace();
+MedialAxis traced_axis(const PaddedCells& skeleton,
+                       std::vector<std::uint32_t> cells,
+                       const DistanceTransform& distances) {
+  return AxisTracer(skeleton, std::move(cells), distances).trace();
+}
+
+double step_cells(Cell a, Cell b) {
+  constexpr double kDiagonal = 1.4142135623730951;
+  const int dx = std::abs(b.x - a.x);
+  const int dy = std::abs(b.y - a.y);
+  if (std::max(dx, dy) <= 1) {
+    return dx + dy == 2 ? kDiagonal : dx + dy;
+  }
+  return std::hypot(dx, dy);  // To the node, where that is made of several cells.
 }
 
 double length_m(const AxisEdge& edge, std::size_t from, std::size_t to, double cell_m) {
   double cells = 0.0;
   for (std::size_t i = std::min(from, to); i < std::max(from, to); ++i) {
-    cells +=
-        std::hypot(edge.cells[i + 1].x - edge.cells[i].x, edge.cells[i + 1].y - edge.cells[i].y);
+    cells += step_cells(edge.cells[i], edge.cells[i + 1]);
   }
   return cell_m * cells;
 }

@@ -7,29 +7,51 @@ namespace cairn {
 namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+constexpr double kNotKnown = -1.0;
+
+bool is_at_border(const GridWindow& window, Cell c) {
+  return c.x == window.lower.x || c.y == window.lower.y ||
+         c.x == window.lower.x + window.width - 1 || c.y == window.lower.y + window.height - 1;
+}
+
+bool is_beside_unknown(const DistanceTransform& distances, Cell c) {
+  return distances.state({c.x + 1, c.y}) == CellState::kUnknown ||
+         distances.state({c.x - 1, c.y}) == CellState::kUnknown ||
+         distances.state({c.x, c.y + 1}) == CellState::kUnknown ||
+         distances.state({c.x, c.y - 1}) == CellState::kUnknown;
+}
 
 /// Whether cells of unknown state lie right behind the free cells around the end of an axis. A wall
 /// of one cell hides what is unknown behind it, so free cells beside unknown ones are counted.
 bool touches_unknown(const DistanceTransform& distances, Cell end) {
   constexpr int kLeastFrontierCells = 3;
-  const double cell_m = distances.geometry().cell_m;
-  const double reach = distances.clearance_m(end) / cell_m + 1.5;
+  const GridWindow& window = distances.window();
+  const double reach = distances.clearance_m(end) / distances.geometry().cell_m + 1.5;
   const int r = static_cast<int>(std::min(reach, 1000.0));
+  const int first_x = std::max(end.x - r, window.lower.x);
+  const int last_x = std::min(end.x + r, window.lower.x + window.width - 1);
+  const int last_y = std::min(end.y + r, window.lower.y + window.height - 1);
   int frontier = 0;
-  for (int dy = -r; dy <= r; ++dy) {
-    for (int dx = -r; dx <= r; ++dx) {
-      const Cell c{end.x + dx, end.y + dy};
-      if (dx * dx + dy * dy > reach * reach || distances.state(c) != CellState::kFree) {
+  for (int y = std::max(end.y - r, window.lower.y); y <= last_y; ++y) {
+    const int dy = y - end.y;
+    const std::int32_t* const squared = distances.squared_clearances_cells().data() +
+                                        std::ptrdiff_t{y - window.lower.y} * window.width -
+                                        window.lower.x;
+    for (int x = first_x; x <= last_x; ++x) {
+      const int dx = x - end.x;
+      const std::int32_t here = squared[x - window.lower.x];
+      if (here == 0 || dx * dx + dy * dy > reach * reach) {
         continue;
       }
-      const bool at_frontier = distances.state({c.x + 1, c.y}) == CellState::kUnknown ||
-                               distances.state({c.x - 1, c.y}) == CellState::kUnknown ||
-                               distances.state({c.x, c.y + 1}) == CellState::kUnknown ||
-                               distances.state({c.x, c.y - 1}) == CellState::kUnknown;
-      frontier += at_frontier ? 1 : 0;
+      // Only beside a cell that is not free there can be an unknown one, or beyond the border.
+      const bool may_be = here == 1 || is_at_border(window, {x, y});
+      frontier += may_be && is_beside_unknown(distances, {x, y}) ? 1 : 0;
+      if (frontier >= kLeastFrontierCells) {
+        return true;
+      }
     }
   }
-  return frontier >= kLeastFrontierCells;
+  return false;
 }
 
 AxisEnd kind_of_end(const DistanceTransform& distances, Cell end) {
@@ -51,7 +73,8 @@ class AxisPruner {
         coastal_distance_m_(coastal_distance_m),
         distances_(distances),
         is_gone_(axis_.edges.size(), false),
-        hides_unknown_(axis_.nodes.size(), false) {}
+        hides_unknown_(axis_.nodes.size(), false),
+        length_m_(axis_.edges.size(), kNotKnown) {}
 
   MedialAxis prune() {
     for (AxisNode& node : axis_.nodes) {
@@ -83,7 +106,15 @@ class AxisPruner {
     return to_degree == 1 && from_degree > 2 ? edge.from : kNone;
   }
 
-  [[nodiscard]] std::size_t shallowest_spur() const {
+  [[nodiscard]] double whole_length_m(std::size_t e) {
+    if (length_m_[e] < 0.0) {
+      const AxisEdge& edge = axis_.edges[e];
+      length_m_[e] = length_m(edge, 0, edge.cells.size() - 1, distances_.geometry().cell_m);
+    }
+    return length_m_[e];
+  }
+
+  [[nodiscard]] std::size_t shallowest_spur() {
     std::size_t best = kNone;
     double least = coastal_distance_m_;
     for (std::size_t e = 0; e < axis_.edges.size(); ++e) {
@@ -93,9 +124,7 @@ class AxisPruner {
         continue;
       }
       const AxisNode& tip = axis_.nodes[base == edge.from ? edge.to : edge.from];
-      const double depth_m =
-          length_m(edge, 0, edge.cells.size() - 1, distances_.geometry().cell_m) + tip.clearance_m -
-          axis_.nodes[base].clearance_m;
+      const double depth_m = whole_length_m(e) + tip.clearance_m - axis_.nodes[base].clearance_m;
       if (tip.end != AxisEnd::kBorder && depth_m < least) {
         best = e;
         least = depth_m;
@@ -134,6 +163,7 @@ class AxisPruner {
     }
     const std::size_t kept = axis_.nodes[n].edges[0];
     const std::size_t merged = axis_.nodes[n].edges[1];
+    length_m_[kept] = kNotKnown;
     AxisEdge& first = axis_.edges[kept];
     AxisEdge& second = axis_.edges[merged];
     if (first.to != n) {
@@ -191,6 +221,7 @@ class AxisPruner {
   const DistanceTransform& distances_;
   std::vector<bool> is_gone_;
   std::vector<bool> hides_unknown_;
+  std::vector<double> length_m_;  ///< By edge, of the whole of it.
 };
 
 }  // namespace

@@ -45,6 +45,56 @@ bool rises(const AxisEdge& edge,
   return false;
 }
 
+/// Looks for the nearest cells that are not free to the right and to the left of a direction.
+struct SideSearch {
+  const DistanceTransform& distances;
+  Cell at;
+  Vector2d along;
+  std::array<Cell, 2> best;
+  std::array<int, 2> best_squared{kNotFound, kNotFound};
+
+  static constexpr int kNotFound = std::numeric_limits<int>::max();
+
+  [[nodiscard]] int farther_squared() const { return std::max(best_squared[0], best_squared[1]); }
+
+  void look_at_row(int dy, int reach) {
+    const GridWindow& window = distances.window();
+    const int y = at.y + dy;
+    if (y < window.lower.y || y >= window.lower.y + window.height) {
+      return;
+    }
+    const int first = std::max(at.x - reach, window.lower.x);
+    const int last = std::min(at.x + reach, window.lower.x + window.width - 1);
+    const CellState* const state = distances.states().data() +
+                                   std::ptrdiff_t{y - window.lower.y} * window.width -
+                                   window.lower.x;
+    for (int x = first; x <= last; ++x) {
+      if (state[x - window.lower.x] != CellState::kFree) {
+        take({x, y}, x - at.x, dy);
+      }
+    }
+  }
+
+  void take(Cell c, int dx, int dy) {
+    const Vector2d to(dx, dy);
+    const double left = along.x() * to.y() - along.y() * to.x();
+    // Within 45 degrees of straight across: what lies ahead or behind is no side.
+    if (std::abs(left) < std::abs(along.dot(to))) {
+      return;
+    }
+    const std::size_t side = left < 0.0 ? 0 : 1;
+    const int squared = dx * dx + dy * dy;
+    // Of equals the lowest counts, then the leftmost.
+    const bool is_nearer = squared < best_squared[side] ||
+                           (squared == best_squared[side] &&
+                            (c.y < best[side].y || (c.y == best[side].y && c.x < best[side].x)));
+    if (is_nearer) {
+      best_squared[side] = squared;
+      best[side] = c;
+    }
+  }
+};
+
 }  // namespace
 
 Status validate(const CriticalPointOptions& options) {
@@ -60,31 +110,17 @@ std::array<Cell, 2> basis_points_at(const DistanceTransform& distances,
   const Cell at = edge.cells[position];
   const Vector2d along = direction_at(edge, position);
   const double clearance = edge.clearance_m[position] / distances.geometry().cell_m;
-  std::array<Cell, 2> best{at, at};
-  std::array<double, 2> best_squared{std::numeric_limits<double>::max(),
-                                     std::numeric_limits<double>::max()};
   // The axis is thin but not exact: the farther of the two points may lie some cells farther.
   const int reach = static_cast<int>(std::min(1.5 * clearance + 3.0, 1000.0));
-  for (int dy = -reach; dy <= reach; ++dy) {
-    for (int dx = -reach; dx <= reach; ++dx) {
-      const Cell c{at.x + dx, at.y + dy};
-      if (!distances.window().contains(c) || distances.state(c) == CellState::kFree) {
-        continue;
-      }
-      const Vector2d to(dx, dy);
-      const double left_m = along.x() * to.y() - along.y() * to.x();
-      // Within 45 degrees of straight across: what lies ahead or behind is no side.
-      if (std::abs(left_m) < std::abs(along.dot(to))) {
-        continue;
-      }
-      const std::size_t side = left_m < 0.0 ? 0 : 1;
-      if (to.squaredNorm() < best_squared[side]) {
-        best_squared[side] = to.squaredNorm();
-        best[side] = c;
-      }
+  SideSearch search{distances, at, along, {at, at}};
+  // Rows farther away than what was found on both sides need no look.
+  for (int rows = 0; rows <= reach && rows * rows <= search.farther_squared(); ++rows) {
+    search.look_at_row(-rows, reach);
+    if (rows > 0) {
+      search.look_at_row(rows, reach);
     }
   }
-  return best;
+  return search.best;
 }
 
 std::vector<CriticalPoint> critical_points(const DistanceTransform& distances,

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "grid/occupancy_grid.hpp"
+#include "grid/state_grid.hpp"
 
 namespace cairn {
 
@@ -21,12 +22,21 @@ struct GridWindow {
 /// All cells of a grid.
 [[nodiscard]] GridWindow whole_window(const GridGeometry& geometry);
 
+/// From a cell to another one.
+struct CellOffset {
+  std::int32_t dx = 0;
+  std::int32_t dy = 0;
+  friend bool operator==(const CellOffset&, const CellOffset&) = default;
+};
+
 /// For every free cell the nearest cell that is not free (its basis point) and the distance to it
 /// (its clearance).
 ///
 /// Both are the terms of Thrun and Bücken, AAAI 1996, "Topological Maps", step 2. A cell of unknown
 /// state bounds free space as an occupied one does, and can be told from it by `basis_state`; the
-/// border of the window bounds nothing. Cells are named as in the grid that was transformed.
+/// border of the window bounds nothing. Of several nearest cells the leftmost counts, then the
+/// lowest, so the field depends on the cells alone. Cells are named as in the grid that was
+/// transformed.
 class DistanceTransform {
  public:
   [[nodiscard]] const GridGeometry& geometry() const { return geometry_; }
@@ -53,13 +63,16 @@ class DistanceTransform {
   /// @pre window().contains(c)
   [[nodiscard]] Cell basis_point(Cell c) const;
 
-  /// The same for all cells of the window, as indices within it.
-  [[nodiscard]] const std::vector<std::int32_t>& basis_indices() const { return basis_; }
+  /// The way to the basis point, for all cells of the window.
+  [[nodiscard]] const std::vector<CellOffset>& basis_offsets() const { return to_basis_; }
+
+  /// For all cells of the window.
+  [[nodiscard]] const std::vector<CellState>& states() const { return state_; }
 
   static constexpr std::int32_t kUnbounded = INT32_MAX;
 
  private:
-  friend DistanceTransform distance_transform(const OccupancyGrid& grid, const GridWindow& window);
+  friend class DistanceUpdate;
 
   [[nodiscard]] std::size_t index_of(Cell c) const {
     return static_cast<std::size_t>(c.y - window_.lower.y) *
@@ -71,7 +84,62 @@ class DistanceTransform {
   GridWindow window_;
   std::vector<CellState> state_;
   std::vector<std::int32_t> squared_cells_;
-  std::vector<std::int32_t> basis_;  ///< Index within the window.
+  std::vector<CellOffset> to_basis_;
+};
+
+/// The part of a row of the window where something is not as it was before.
+struct RowChange {
+  int first = 0;  ///< Column in the window.
+  int last = 0;   ///< Behind the last changed one; equal to `first` where nothing has changed.
+};
+
+/// A distance transform that follows a map from one state to the next: only where distances may
+/// have changed they are computed anew. The result is that of a full computation.
+///
+/// Free cells of a row between two that are not see no farther, within the row, than those two; so
+/// such a run is left as it is while the nearest walls above and below its cells are the same.
+///
+/// Source: as `distance_transform`. Cost: a linear pass with very little work per cell, and the
+/// envelope of parabolas for the runs that are computed anew.
+class DistanceUpdate {
+ public:
+  /// Takes the next state of the map, or the first one.
+  /// @param moved by how many cells the window has moved since, over the same ground; what was in
+  ///     cell c is now in cell c - moved. Of no account with the first grid, or one of other size.
+  void update(const StateGrid& grid, Cell moved);
+
+  [[nodiscard]] const DistanceTransform& distances() const { return result_; }
+  /// By row: where clearance or basis points are not what they were in the same place.
+  [[nodiscard]] const std::vector<RowChange>& changes() const { return changes_; }
+
+ private:
+  friend DistanceTransform distance_transform(const OccupancyGrid& grid, const GridWindow& window);
+
+  [[nodiscard]] static DistanceTransform of_part(const OccupancyGrid& grid,
+                                                 const GridWindow& window);
+  /// The lower envelope of the parabolas (x - position)^2 + height.
+  struct Parabola {
+    int position = 0;
+    double height = 0.0;
+    double start = 0.0;  ///< Where it begins to be the lowest.
+  };
+
+  void begin(const GridGeometry& geometry, const GridWindow& window);
+  void shift(Cell moved);
+  void find_nearest_in_columns();
+  void update_rows(Cell moved);
+  void update_row(std::size_t y, Cell moved);
+  void clear_cells(std::size_t row, std::size_t first, std::size_t last, RowChange* change);
+  void update_run(std::size_t row, std::size_t first, std::size_t last, RowChange* change);
+  void put(std::size_t row, std::size_t x, std::int32_t squared, CellOffset to, RowChange* change);
+
+  DistanceTransform result_;
+  std::vector<RowChange> changes_;
+  std::vector<std::uint8_t> is_free_;
+  std::vector<std::int32_t> to_nearest_;      ///< Rows up to the nearest cell that is not free.
+  std::vector<std::int32_t> to_nearest_was_;  ///< The same for the state before.
+  std::vector<std::int32_t> above_;           ///< One row.
+  std::vector<Parabola> envelope_;            ///< As long as a row; the first ones are in use.
 };
 
 /// Exact Euclidean distance transform of the part of `window` that lies within the grid.
@@ -81,5 +149,6 @@ class DistanceTransform {
 [[nodiscard]] DistanceTransform distance_transform(const OccupancyGrid& grid,
                                                    const GridWindow& window);
 [[nodiscard]] DistanceTransform distance_transform(const OccupancyGrid& grid);
+[[nodiscard]] DistanceTransform distance_transform(const StateGrid& grid);
 
 }  // namespace cairn

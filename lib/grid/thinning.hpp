@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "grid/occupancy_grid.hpp"
+
 namespace cairn {
 
 /// A set of cells of a rectangle, row by row from below.
@@ -27,12 +29,56 @@ struct CellMask {
   }
 };
 
+/// A set of cells of a rectangle with an empty cell all around, so that every cell of it has eight
+/// neighbours. Its cells are named by their index in the rectangle with that rim.
+class PaddedCells {
+ public:
+  /// Makes it an empty set of such a rectangle.
+  void clear(int width, int height) {
+    width_ = static_cast<std::size_t>(width) + 2;
+    cells_.assign(width_ * (static_cast<std::size_t>(height) + 2), 0);
+  }
+
+  [[nodiscard]] std::size_t index_of(std::size_t x, std::size_t y) const {
+    return (y + 1) * width_ + x + 1;
+  }
+  /// Column and row in the rectangle without the rim.
+  [[nodiscard]] Cell cell_of(std::size_t index) const {
+    // Divides in 32 bits, which is much faster; a set of more cells fits into no memory.
+    const auto at = static_cast<std::uint32_t>(index);
+    const auto width = static_cast<std::uint32_t>(width_);
+    return {static_cast<int>(at % width) - 1, static_cast<int>(at / width) - 1};
+  }
+  [[nodiscard]] std::size_t size() const { return cells_.size(); }
+  [[nodiscard]] std::size_t stride() const { return width_; }
+  [[nodiscard]] bool has(std::size_t index) const { return cells_[index] != 0; }
+  void add(std::size_t index) { cells_[index] = 1; }
+  void remove(std::size_t index) { cells_[index] = 0; }
+  [[nodiscard]] const std::uint8_t* data() const { return cells_.data(); }
+  [[nodiscard]] std::uint8_t* data() { return cells_.data(); }
+
+  /// The eight neighbours of a cell as bits, counterclockwise from the east.
+  [[nodiscard]] unsigned neighbours_of(std::size_t index) const {
+    const std::uint8_t* const own = cells_.data() + index;
+    const std::uint8_t* const above = own + width_;
+    const std::uint8_t* const below = own - width_;
+    return unsigned{own[1]} | unsigned{above[1]} << 1U | unsigned{above[0]} << 2U |
+           unsigned{above[-1]} << 3U | unsigned{own[-1]} << 4U | unsigned{below[-1]} << 5U |
+           unsigned{below[0]} << 6U | unsigned{below[1]} << 7U;
+  }
+
+ private:
+  std::size_t width_ = 0;
+  std::vector<std::uint8_t> cells_;
+};
+
 /// Thins a set to lines: removes cells one by one in the given order, as often as needed, where
 /// that changes the topology of neither the set (8-connected) nor its complement (4-connected).
 /// Cells of `kept` stay, but where lines of them are two cells wide, one is taken away in the end.
 ///
 /// Source: distance-ordered homotopic thinning, Pudney, CVIU 72(3), 1998.
-/// @param order indices of all cells of the set, the first to be removed first
-void thin(const std::vector<std::size_t>& order, const CellMask& kept, CellMask* set);
+/// @param order indices of all cells of the set, the first to be removed first; those that stay
+///     are left in it
+void thin(const PaddedCells& kept, std::vector<std::uint32_t>* order, PaddedCells* set);
 
 }  // namespace cairn

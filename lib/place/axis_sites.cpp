@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "geometry/angle.hpp"
 #include "grid/axis_graph.hpp"
@@ -16,60 +17,96 @@ constexpr double kShareOfDisc = 0.8;
 /// A passage narrower than this share of the space on both sides is a doorway.
 constexpr double kDoorwayShare = 0.6;
 
-double step_m(const AxisEdge& edge, std::size_t i, double cell_m) {
-  return length_m(edge, i, i + 1, cell_m);
+std::vector<double> steps_of(const AxisEdge& edge, double cell_m) {
+  std::vector<double> steps;
+  steps.reserve(edge.cells.size());
+  for (std::size_t i = 0; i + 1 < edge.cells.size(); ++i) {
+    steps.push_back(cell_m * step_cells(edge.cells[i], edge.cells[i + 1]));
+  }
+  return steps;
 }
 
 /// The position that lies `reach_m` along the edge from another one, or its end.
-std::size_t position_after(
-    const AxisEdge& edge, std::size_t i, bool forward, double reach_m, double cell_m) {
+std::size_t position_after(const std::vector<double>& step_m,
+                           std::size_t i,
+                           bool forward,
+                           double reach_m) {
   double travelled_m = 0.0;
-  while (travelled_m < reach_m && (forward ? i + 1 < edge.cells.size() : i > 0)) {
-    travelled_m += step_m(edge, forward ? i : i - 1, cell_m);
+  while (travelled_m < reach_m && (forward ? i < step_m.size() : i > 0)) {
+    travelled_m += step_m[forward ? i : i - 1];
     i = forward ? i + 1 : i - 1;
   }
   return i;
 }
 
-/// How far the axis turns around a position, seen over a reach that grows with the passage's width.
-double turn_at(const AxisEdge& edge, std::size_t i, double cell_m) {
-  const double reach_m = 1.0 + edge.clearance_m[i];
-  const std::size_t back = position_after(edge, i, false, reach_m, cell_m);
-  const std::size_t ahead = position_after(edge, i, true, reach_m, cell_m);
-  if (length_m(edge, back, i, cell_m) < 0.5 * reach_m ||
-      length_m(edge, i, ahead, cell_m) < 0.5 * reach_m) {
-    return 0.0;
-  }
-  const auto bearing = [&](std::size_t a, std::size_t b) {
-    return std::atan2(edge.cells[b].y - edge.cells[a].y, edge.cells[b].x - edge.cells[a].x);
-  };
-  return std::abs(turn_between(bearing(back, i), bearing(i, ahead)));
-}
+/// Looks for the corners of an edge.
+class CornerFinder {
+ public:
+  CornerFinder(const AxisEdge& edge, double cell_m, double min_turn_rad)
+      : edge_(edge),
+        cell_m_(cell_m),
+        min_turn_rad_(min_turn_rad),
+        plain_cosine_(std::cos(min_turn_rad) + 1e-6),
+        step_m_(steps_of(edge, cell_m)) {}
 
-/// Positions where an edge turns most, in ascending order; at most one within the reach of another.
-std::vector<std::size_t> corners_of(const AxisEdge& edge, double cell_m, double min_turn_rad) {
-  std::vector<double> turns;
-  turns.reserve(edge.cells.size());
-  for (std::size_t i = 0; i < edge.cells.size(); ++i) {
-    turns.push_back(turn_at(edge, i, cell_m));
-  }
-  std::vector<std::size_t> corners;
-  for (std::size_t i = 0; i < turns.size(); ++i) {
-    if (turns[i] < min_turn_rad) {
-      continue;
+  /// Positions where the edge turns most, in ascending order; at most one within the reach of
+  /// another.
+  [[nodiscard]] std::vector<std::size_t> corners() const {
+    std::vector<double> turns(edge_.cells.size());
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+      turns[i] = turn_at(i);
     }
-    const double reach_m = 1.0 + edge.clearance_m[i];
-    const std::size_t a = position_after(edge, i, false, reach_m, cell_m);
-    const std::size_t b = position_after(edge, i, true, reach_m, cell_m);
-    const auto first = turns.begin() + static_cast<std::ptrdiff_t>(a);
-    const auto last = turns.begin() + static_cast<std::ptrdiff_t>(b) + 1;
-    const auto most = std::max_element(first, last);
-    if (static_cast<std::size_t>(most - turns.begin()) == i) {
-      corners.push_back(i);
+    std::vector<std::size_t> corners;
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+      if (turns[i] < min_turn_rad_) {
+        continue;
+      }
+      const double reach_m = reach_at(i);
+      const std::size_t a = position_after(step_m_, i, false, reach_m);
+      const std::size_t b = position_after(step_m_, i, true, reach_m);
+      const auto first = turns.begin() + static_cast<std::ptrdiff_t>(a);
+      const auto last = turns.begin() + static_cast<std::ptrdiff_t>(b) + 1;
+      const auto most = std::max_element(first, last);
+      if (static_cast<std::size_t>(most - turns.begin()) == i) {
+        corners.push_back(i);
+      }
     }
+    return corners;
   }
-  return corners;
-}
+
+ private:
+  [[nodiscard]] double reach_at(std::size_t i) const { return 1.0 + edge_.clearance_m[i]; }
+
+  /// How far the axis turns around a position, seen over a reach that grows with the passage's
+  /// width; 0 where that is plainly less than what makes a corner.
+  [[nodiscard]] double turn_at(std::size_t i) const {
+    const double reach_m = reach_at(i);
+    const std::size_t back = position_after(step_m_, i, false, reach_m);
+    const std::size_t ahead = position_after(step_m_, i, true, reach_m);
+    // What does not come to an end of the edge is as long as the reach.
+    if ((back == 0 && length_m(edge_, back, i, cell_m_) < 0.5 * reach_m) ||
+        (ahead + 1 == edge_.cells.size() && length_m(edge_, i, ahead, cell_m_) < 0.5 * reach_m)) {
+      return 0.0;
+    }
+    const auto way = [&](std::size_t a, std::size_t b) {
+      return Vector2d(edge_.cells[b].x - edge_.cells[a].x, edge_.cells[b].y - edge_.cells[a].y);
+    };
+    const Vector2d before = way(back, i);
+    const Vector2d behind = way(i, ahead);
+    if (before.dot(behind) >
+        plain_cosine_ * std::sqrt(before.squaredNorm() * behind.squaredNorm())) {
+      return 0.0;
+    }
+    return std::abs(
+        turn_between(std::atan2(before.y(), before.x()), std::atan2(behind.y(), behind.x())));
+  }
+
+  const AxisEdge& edge_;
+  double cell_m_;
+  double min_turn_rad_;
+  double plain_cosine_;  ///< Ways closer in direction are no corner, whatever the rounding.
+  std::vector<double> step_m_;
+};
 
 AxisEdge part_of(const AxisEdge& edge, std::size_t first, std::size_t last) {
   const auto a = static_cast<std::ptrdiff_t>(first);
@@ -121,8 +158,7 @@ struct Sides {
 
 /// Looks at the basis points of the cell and of those beside it, which lie on either side of the
 /// axis.
-Sides sides_of(const LocalView& view, AxisWay way, std::size_t position) {
-  const Cell cell = view.axis.edges[way.edge].cells[index_on_edge(view.axis, way, position)];
+Sides sides_of(const LocalView& view, Cell cell) {
   Sides sides;
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {
@@ -139,13 +175,15 @@ Sides sides_of(const LocalView& view, AxisWay way, std::size_t position) {
 /// The least clearance between walls on the stretch ahead of a position, the position included.
 double least_ahead_m(const LocalView& view, AxisWay way, std::size_t position, double stretch_m) {
   const AxisEdge& edge = view.axis.edges[way.edge];
-  double least_m = edge.clearance_m[index_on_edge(view.axis, way, position)];
+  const EdgeProfile& profile = view.profiles[way.edge];
+  std::size_t at = index_on_edge(view.axis, way, position);
+  double least_m = edge.clearance_m[at];
   double ahead_m = 0.0;
   for (std::size_t i = position; i + 1 < edge.cells.size() && ahead_m < stretch_m; ++i) {
-    const std::size_t next = index_on_edge(view.axis, way, i + 1);
-    ahead_m += length_m(edge, index_on_edge(view.axis, way, i), next, view.grid.geometry().cell_m);
-    if (is_between_walls(view, way, i + 1)) {
-      least_m = std::min(least_m, edge.clearance_m[next]);
+    ahead_m += profile.step_m[way.forward ? at : at - 1];
+    at = way.forward ? at + 1 : at - 1;
+    if (profile.is_between_walls[at] != 0) {
+      least_m = std::min(least_m, edge.clearance_m[at]);
     }
   }
   return least_m;
@@ -173,7 +211,7 @@ MedialAxis with_corner_nodes(const MedialAxis& axis, double cell_m, double min_t
   for (const AxisEdge& edge : axis.edges) {
     std::size_t start = 0;
     std::size_t from = edge.from;
-    for (const std::size_t corner : corners_of(edge, cell_m, min_turn_rad)) {
+    for (const std::size_t corner : CornerFinder(edge, cell_m, min_turn_rad).corners()) {
       const std::size_t node = result.nodes.size();
       result.nodes.push_back({edge.cells[corner], edge.clearance_m[corner], AxisEnd::kMeets, {}});
       add(part_of(edge, start, corner), from, node);
@@ -185,18 +223,37 @@ MedialAxis with_corner_nodes(const MedialAxis& axis, double cell_m, double min_t
   return result;
 }
 
+std::vector<EdgeProfile> edge_profiles(const LocalView& view) {
+  std::vector<EdgeProfile> profiles;
+  profiles.reserve(view.axis.edges.size());
+  for (const AxisEdge& edge : view.axis.edges) {
+    EdgeProfile profile;
+    profile.step_m = steps_of(edge, view.grid.geometry().cell_m);
+    profile.is_along_wall.reserve(edge.cells.size());
+    profile.is_between_walls.reserve(edge.cells.size());
+    for (const Cell cell : edge.cells) {
+      const Sides sides = sides_of(view, cell);
+      profile.is_along_wall.push_back(sides.walls > 0 ? 1 : 0);
+      profile.is_between_walls.push_back(sides.unknown == 0 ? 1 : 0);
+    }
+    profiles.push_back(std::move(profile));
+  }
+  return profiles;
+}
+
 bool is_along_wall(const LocalView& view, AxisWay way, std::size_t position) {
-  return sides_of(view, way, position).walls > 0;
+  return view.profiles[way.edge].is_along_wall[index_on_edge(view.axis, way, position)] != 0;
 }
 
 bool is_between_walls(const LocalView& view, AxisWay way, std::size_t position) {
-  return sides_of(view, way, position).unknown == 0;
+  return view.profiles[way.edge].is_between_walls[index_on_edge(view.axis, way, position)] != 0;
 }
 
 std::optional<std::size_t> first_constriction(const LocalView& view,
                                               AxisWay way,
                                               const PlaceOptions& options) {
   const AxisEdge& edge = view.axis.edges[way.edge];
+  const EdgeProfile& profile = view.profiles[way.edge];
   const auto index = [&](std::size_t i) { return index_on_edge(view.axis, way, i); };
   const double start_m = kShareOfDisc * edge.clearance_m[index(0)];
   double travelled_m = 0.0;
@@ -207,7 +264,7 @@ std::optional<std::size_t> first_constriction(const LocalView& view,
       return i;
     }
     if (i + 1 < edge.cells.size()) {
-      travelled_m += length_m(edge, index(i), index(i + 1), view.grid.geometry().cell_m);
+      travelled_m += profile.step_m[std::min(index(i), index(i + 1))];
     }
   }
   return std::nullopt;

@@ -25,6 +25,9 @@ struct AxisSite {
                                            double cell_m,
                                            double min_turn_rad);
 
+/// What bounds the edges of the view's axis, and how long their steps are.
+[[nodiscard]] std::vector<EdgeProfile> edge_profiles(const LocalView& view);
+
 /// Whether the axis, at this position of a way, is bounded by a wall on one side at least.
 [[nodiscard]] bool is_along_wall(const LocalView& view, AxisWay way, std::size_t position);
 

@@ -96,8 +96,8 @@ bool is_near_wall(const LocalView& view, const Vector2d& p, double within_m) {
   const int reach = static_cast<int>(std::ceil(within_m / geometry.cell_m));
   for (int dy = -reach; dy <= reach; ++dy) {
     for (int dx = -reach; dx <= reach; ++dx) {
-      const bool is_within = std::hypot(dx, dy) * geometry.cell_m <= within_m;
-      if (is_within && view.is_wall_at({center.x + dx, center.y + dy})) {
+      if (view.is_wall_at({center.x + dx, center.y + dy}) &&
+          std::hypot(dx, dy) * geometry.cell_m <= within_m) {
         return true;
       }
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "place/axis_sites.hpp"
@@ -82,10 +83,11 @@ bool is_place(const PlaceNeighbourhood& place, const PlaceOptions& options) {
   return std::abs(turn) >= options.min_corner_rad;
 }
 
-PlaceNeighbourhood neighbourhood_of(const LocalView& view,
-                                    const WalledLengths& walled,
-                                    const AxisSite& site,
-                                    const PlaceOptions& options) {
+/// The neighbourhood around a site, if it is a place.
+std::optional<PlaceNeighbourhood> neighbourhood_of(const LocalView& view,
+                                                   const WalledLengths& walled,
+                                                   const AxisSite& site,
+                                                   const PlaceOptions& options) {
   PlaceNeighbourhood place;
   place.center = center_of(view, site);
   const SiteBounds bounds = bounds_of(view, walled, site, place.center, options);
@@ -95,6 +97,9 @@ PlaceNeighbourhood neighbourhood_of(const LocalView& view,
   place.star = std::move(readings.star);
   place.others = std::move(readings.others);
   place.unsure = bounds.unsure;
+  if (!is_place(place, options)) {
+    return std::nullopt;
+  }
   std::vector<Cell> starts;
   for (const std::size_t n : site.nodes) {
     starts.push_back(view.axis.nodes[n].cell);
@@ -136,16 +141,24 @@ std::vector<PlaceNeighbourhood> find_places(const OccupancyGrid& grid,
                                             const Vector2d& p_grid_robot,
                                             const PlaceOptions& options,
                                             PlaceMemory memory) {
-  LocalView view = look_around(grid, p_grid_robot, options);
+  LocalViewer viewer;
+  return find_places(grid, p_grid_robot, options, std::move(memory), &viewer);
+}
+
+std::vector<PlaceNeighbourhood> find_places(const OccupancyGrid& grid,
+                                            const Vector2d& p_grid_robot,
+                                            const PlaceOptions& options,
+                                            PlaceMemory memory,
+                                            LocalViewer* viewer) {
+  LocalView view =
+      viewer->look_around(grid, p_grid_robot, options, kWeakCorner * options.min_corner_rad);
   view.memory = std::move(memory);
-  const double cell_m = view.grid.geometry().cell_m;
-  view.axis = with_corner_nodes(view.axis, cell_m, kWeakCorner * options.min_corner_rad);
   const WalledLengths walled(view);
   std::vector<PlaceNeighbourhood> places;
   for (const AxisSite& site : axis_sites(view, options)) {
-    PlaceNeighbourhood place = neighbourhood_of(view, walled, site, options);
-    if (is_place(place, options) && place.distinctiveness >= options.min_distinctiveness) {
-      places.push_back(std::move(place));
+    std::optional<PlaceNeighbourhood> place = neighbourhood_of(view, walled, site, options);
+    if (place && place->distinctiveness >= options.min_distinctiveness) {
+      places.push_back(*std::move(place));
     }
   }
   return places;

@@ -1,8 +1,7 @@
 #include "place/passage.hpp"
 
 #include <algorithm>
-
-#include "grid/axis_graph.hpp"
+#include <utility>
 
 namespace cairn {
 namespace {
@@ -48,14 +47,13 @@ void take_in(const WalledLengths::Lengths& way, Passage* passage) {
 }  // namespace
 
 WalledLengths::WalledLengths(const LocalView& view) {
-  const double cell_m = view.grid.geometry().cell_m;
-  for (std::size_t e = 0; e < view.axis.edges.size(); ++e) {
-    const AxisEdge& edge = view.axis.edges[e];
-    std::vector<Lengths> since_start(edge.cells.size());
-    for (std::size_t i = 0; i + 1 < edge.cells.size(); ++i) {
-      const double step_m = length_m(edge, i, i + 1, cell_m);
-      const double along_m = is_along_wall(view, {e, true}, i) ? step_m : 0.0;
-      const double between_m = is_between_walls(view, {e, true}, i) ? step_m : 0.0;
+  since_start_.reserve(view.profiles.size());
+  for (const EdgeProfile& profile : view.profiles) {
+    std::vector<Lengths> since_start(profile.is_along_wall.size());
+    for (std::size_t i = 0; i < profile.step_m.size(); ++i) {
+      const double step_m = profile.step_m[i];
+      const double along_m = profile.is_along_wall[i] != 0 ? step_m : 0.0;
+      const double between_m = profile.is_between_walls[i] != 0 ? step_m : 0.0;
       since_start[i + 1] = since_start[i] + Lengths{step_m, along_m, between_m};
     }
     since_start_.push_back(std::move(since_start));

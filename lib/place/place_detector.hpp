@@ -85,6 +85,7 @@ class PlaceDetector {
 
   PlaceOptions options_;
   PlaceDetectorReport report_;
+  LocalViewer viewer_;
   std::vector<PlaceNeighbourhood> around_;
   std::optional<StampedPose> last_pose_;
   std::optional<StampedPose> last_look_;

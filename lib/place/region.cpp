@@ -1,23 +1,35 @@
 #include "place/region.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
-#include <set>
 
 #include "place/island.hpp"
 
 namespace cairn {
 namespace {
 
+/// The least squared clearance, in cells, that is at least so many metres.
+std::int32_t squared_cells_of(double clearance_m, double cell_m) {
+  const double cells = clearance_m / cell_m;
+  // What rounding leaves open is decided as a comparison in metres would.
+  double squared = std::clamp(std::floor(cells * cells) - 2.0, 0.0, 1e9);
+  while (squared < 1e9 && cell_m * std::sqrt(squared) < clearance_m) {
+    squared += 1.0;
+  }
+  return static_cast<std::int32_t>(squared);
+}
+
 class RegionFlood {
  public:
   RegionFlood(const LocalView& view, double robot_width_m)
       : view_(view),
         robot_width_m_(robot_width_m),
-        barrier_(view.grid.geometry().cell_count(), 0),
-        flooded_(view.grid.geometry().cell_count(), 0) {}
+        passable_from_(squared_cells_of(0.5 * robot_width_m, view.grid.geometry().cell_m)),
+        coast_below_(squared_cells_of(0.5 * robot_width_m + 1.5 * view.grid.geometry().cell_m,
+                                      view.grid.geometry().cell_m)),
+        marks_(view.grid.geometry().cell_count(), 0) {}
 
   /// Draws a gateway as an 8-connected line, which a 4-connected flood cannot cross.
   void bar(const Gateway& gateway) {
@@ -29,45 +41,68 @@ class RegionFlood {
       const Cell c{a.x + static_cast<int>(std::lround((b.x - a.x) * double(i) / steps)),
                    a.y + static_cast<int>(std::lround((b.y - a.y) * double(i) / steps))};
       if (geometry.contains(c)) {
-        barrier_[geometry.index_of(c)] = 1;
+        marks_[geometry.index_of(c)] |= kBarrier;
       }
     }
   }
 
   void flood(const std::vector<Cell>& starts) {
+    const GridGeometry& geometry = view_.grid.geometry();
     for (const Cell c : starts) {
-      visit(c);
+      if (geometry.contains(c)) {
+        visit(c, geometry.index_of(c));
+      }
     }
-    constexpr std::array<Cell, 4> kSides{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+    const auto width = static_cast<std::size_t>(geometry.width);
     for (std::size_t i = 0; i < cells_.size(); ++i) {
-      for (const Cell d : kSides) {
-        visit({cells_[i].x + d.x, cells_[i].y + d.y});
+      const Cell c = cells_[i];
+      const std::size_t at = geometry.index_of(c);
+      if (c.x + 1 < geometry.width) {
+        visit({c.x + 1, c.y}, at + 1);
+      }
+      if (c.y + 1 < geometry.height) {
+        visit({c.x, c.y + 1}, at + width);
+      }
+      if (c.x > 0) {
+        visit({c.x - 1, c.y}, at - 1);
+      }
+      if (c.y > 0) {
+        visit({c.x, c.y - 1}, at - width);
       }
     }
   }
 
-  [[nodiscard]] PlaceRegion region(const Vector2d& center) const {
+  /// To be asked once.
+  [[nodiscard]] PlaceRegion region(const Vector2d& center) {
+    const GridGeometry& geometry = view_.grid.geometry();
     PlaceRegion region;
-    std::set<Cell> walls;
-    std::set<Cell> unknown;
+    std::vector<Cell> unknown;
     std::vector<Vector2d> normals;
     bool is_cut = false;
+    double radius_squared = 0.0;
     for (const Cell c : cells_) {
       is_cut = is_cut || at_border(c);
-      const Cell basis = view_.distances.basis_point(c);
-      const Vector2d to_basis(basis.x - c.x, basis.y - c.y);
-      if (basis == c || !at_coast(c)) {
+      const std::size_t at = geometry.index_of(c);
+      const CellOffset to = view_.distances.basis_offsets()[at];
+      // Where the robot, there, would about touch what bounds free space.
+      if (to == CellOffset{} || view_.distances.squared_clearances_cells()[at] >= coast_below_) {
         continue;
       }
-      const bool is_wall = view_.is_wall_at(basis);
-      if (is_wall && walls.insert(basis).second) {
-        normals.push_back(to_basis.normalized());
-      } else if (!is_wall) {
-        unknown.insert(basis);
+      const Cell basis{c.x + to.dx, c.y + to.dy};
+      std::uint8_t& mark = marks_[geometry.index_of(basis)];
+      if ((mark & kBounds) == 0) {
+        mark |= kBounds;
+        if (view_.is_wall_at(basis)) {
+          normals.push_back(Vector2d(to.dx, to.dy).normalized());
+        } else {
+          unknown.push_back(basis);
+          mark |= kUnknown;
+        }
+        const Vector2d from_center = geometry.center_of(basis) - center;
+        radius_squared = std::max(radius_squared, from_center.squaredNorm());
       }
-      const Vector2d from_center = view_.grid.geometry().center_of(basis) - center;
-      region.radius_m = std::max(region.radius_m, from_center.norm());
     }
+    region.radius_m = std::sqrt(radius_squared);
     region.is_complete = !is_cut && longest_stretch_m(unknown) < robot_width_m_;
     region.distinctiveness = distinctiveness(normals);
     region.contains_robot = holds(view_.robot);
@@ -75,15 +110,22 @@ class RegionFlood {
   }
 
  private:
-  void visit(Cell c) {
-    const GridGeometry& geometry = view_.grid.geometry();
-    if (!geometry.contains(c) || barrier_[geometry.index_of(c)] != 0 ||
-        flooded_[geometry.index_of(c)] != 0 ||
-        view_.distances.clearance_m(c) < 0.5 * robot_width_m_) {
-      return;
+  static constexpr std::uint8_t kBarrier = 1;
+  static constexpr std::uint8_t kFlooded = 2;
+  static constexpr std::uint8_t kBounds = 4;   ///< Basis point of a cell of the region.
+  static constexpr std::uint8_t kUnknown = 8;  ///< Such a one that is no wall.
+
+  void visit(Cell c, std::size_t at) {
+    if ((marks_[at] & (kBarrier | kFlooded)) == 0 &&
+        view_.distances.squared_clearances_cells()[at] >= passable_from_) {
+      marks_[at] |= kFlooded;
+      cells_.push_back(c);
     }
-    flooded_[geometry.index_of(c)] = 1;
-    cells_.push_back(c);
+  }
+
+  [[nodiscard]] bool has_mark(Cell c, std::uint8_t mark) const {
+    const GridGeometry& geometry = view_.grid.geometry();
+    return geometry.contains(c) && (marks_[geometry.index_of(c)] & mark) != 0;
   }
 
   [[nodiscard]] bool at_border(Cell c) const {
@@ -91,25 +133,17 @@ class RegionFlood {
     return c.x == 0 || c.y == 0 || c.x == geometry.width - 1 || c.y == geometry.height - 1;
   }
 
-  /// Whether the robot, there, would about touch what bounds free space.
-  [[nodiscard]] bool at_coast(Cell c) const {
-    return view_.distances.clearance_m(c) <
-           0.5 * robot_width_m_ + 1.5 * view_.grid.geometry().cell_m;
-  }
-
   /// Whether a cell, or one within the robot's half width of it, is flooded.
   [[nodiscard]] bool holds(Cell c) const {
-    const GridGeometry& geometry = view_.grid.geometry();
-    const int r = static_cast<int>(std::ceil(0.5 * robot_width_m_ / geometry.cell_m));
-    const bool is_on_line = geometry.contains(c) && barrier_[geometry.index_of(c)] != 0;
-    const bool is_inside = geometry.contains(c) && flooded_[geometry.index_of(c)] != 0;
-    if (is_inside || is_on_line || view_.distances.clearance_m(c) >= 0.5 * robot_width_m_) {
+    const int r = static_cast<int>(std::ceil(0.5 * robot_width_m_ / view_.grid.geometry().cell_m));
+    const bool is_inside = has_mark(c, kFlooded);
+    if (is_inside || has_mark(c, kBarrier) ||
+        view_.distances.clearance_m(c) >= 0.5 * robot_width_m_) {
       return is_inside;
     }
     for (int dy = -r; dy <= r; ++dy) {
       for (int dx = -r; dx <= r; ++dx) {
-        const Cell d{c.x + dx, c.y + dy};
-        if (geometry.contains(d) && flooded_[geometry.index_of(d)] != 0) {
+        if (has_mark({c.x + dx, c.y + dy}, kFlooded)) {
           return true;
         }
       }
@@ -117,35 +151,45 @@ class RegionFlood {
     return false;
   }
 
-  /// Extent of the largest 8-connected piece of a set of cells.
-  [[nodiscard]] double longest_stretch_m(std::set<Cell> cells) const {
+  /// Extent of the largest 8-connected piece of the cells of unknown state.
+  [[nodiscard]] double longest_stretch_m(const std::vector<Cell>& cells) {
+    const GridGeometry& geometry = view_.grid.geometry();
     double longest = 0.0;
-    while (!cells.empty()) {
-      std::vector<Cell> piece{*cells.begin()};
-      cells.erase(cells.begin());
-      Cell low = piece.front();
-      Cell high = low;
+    std::vector<Cell> piece;
+    const auto take = [&](Cell c) {
+      if (has_mark(c, kUnknown)) {
+        marks_[geometry.index_of(c)] &= static_cast<std::uint8_t>(~kUnknown);
+        piece.push_back(c);
+      }
+    };
+    for (const Cell first : cells) {
+      piece.clear();
+      take(first);
+      if (piece.empty()) {
+        continue;
+      }
+      Cell low = first;
+      Cell high = first;
       for (std::size_t i = 0; i < piece.size(); ++i) {
         const Cell c = piece[i];
         low = {std::min(low.x, c.x), std::min(low.y, c.y)};
         high = {std::max(high.x, c.x), std::max(high.y, c.y)};
         for (int dy = -1; dy <= 1; ++dy) {
           for (int dx = -1; dx <= 1; ++dx) {
-            if (cells.erase({c.x + dx, c.y + dy}) > 0) {
-              piece.push_back({c.x + dx, c.y + dy});
-            }
+            take({c.x + dx, c.y + dy});
           }
         }
       }
       longest = std::max(longest, std::hypot(high.x - low.x + 1.0, high.y - low.y + 1.0));
     }
-    return longest * view_.grid.geometry().cell_m;
+    return longest * geometry.cell_m;
   }
 
   const LocalView& view_;
   double robot_width_m_;
-  std::vector<std::uint8_t> barrier_;
-  std::vector<std::uint8_t> flooded_;
+  std::int32_t passable_from_;  ///< Squared clearance in cells.
+  std::int32_t coast_below_;
+  std::vector<std::uint8_t> marks_;
   std::vector<Cell> cells_;
 };
 
