@@ -27,7 +27,8 @@ Evidence MappingService::Pipeline::evidence() const {
       evidence.layout = [this](const TopologicalMap& map) {
         const Result<PlaceLayout> layout =
             solve_layout(map.place_count(), matcher_.constraints(map), options_.layout);
-        return layout ? -0.5 * layout->chi2 : -std::numeric_limits<double>::infinity();
+        return layout ? -0.5 * (layout->chi2 + matcher_.chi2_of_unmatched(map))
+                      : -std::numeric_limits<double>::infinity();
       };
     }
   }

@@ -4,7 +4,15 @@
 #include <limits>
 #include <optional>
 
+#include <Eigen/Cholesky>
+
 namespace cairn {
+namespace {
+
+/// Where the robot is said to be at a place, it is within this of its centre.
+constexpr double kLeastWide_m = 1.0;
+
+}  // namespace
 
 std::vector<GatewayPair> VisitMatcher::pairs(VisitId known, VisitId visit, GatewayPair pair) const {
   const std::vector<Visit>& visits = experience_.visits();
@@ -105,6 +113,25 @@ std::optional<GaussianPose> VisitMatcher::matched_at_place(const TopologicalMap&
     }
   }
   return std::nullopt;
+}
+
+double VisitMatcher::chi2_of_unmatched(const TopologicalMap& map) const {
+  double chi2 = 0.0;
+  for (int v = 0; v < map.visit_count(); ++v) {
+    const VisitId visit{v};
+    if (map.is_carried(visit) || matched_at_place(map, visit)) {
+      continue;
+    }
+    const VisitId first = map.first_visit(map.at_visit(visit).place);
+    const GaussianPose& T_first_visit = dead_reckoned(first, visit);
+    const double wide_m = std::max(
+        kLeastWide_m, experience_.visits()[first.index()].perceived.neighbourhood.radius_m);
+    const Eigen::Matrix2d spread = T_first_visit.covariance.topLeftCorner<2, 2>() +
+                                   wide_m * wide_m * Eigen::Matrix2d::Identity();
+    const Vector2d away = T_first_visit.mean.translation();
+    chi2 += away.dot(spread.ldlt().solve(away));
+  }
+  return chi2;
 }
 
 std::vector<TravelConstraint> VisitMatcher::constraints(const TopologicalMap& map) const {

@@ -46,6 +46,11 @@ class VisitMatcher {
   /// and worked out anew when they are needed. A map of 8 m x 8 m takes about 0.3 MB.
   static constexpr std::size_t kMaxMapsReady = 256;
 
+  /// What dead reckoning says against the places of visits that cannot be matched with them, since
+  /// no gateway was seen at both: the squared Mahalanobis distance from the place, as wide as it
+  /// is, summed over these visits. Constraints hold nothing against such a visit.
+  [[nodiscard]] double chi2_of_unmatched(const TopologicalMap& map) const;
+
   /// Dead reckoning is given this many standard deviations before it refutes. Generous: slip and
   /// pushes make it wrong by more than its covariance says.
   static constexpr double kRefutedAt_sigmas = 20.0;
