@@ -19,10 +19,10 @@ constexpr double kBlindSigma_m = 3.0;
 constexpr double kBlindSigma_rad = 1.0;
 constexpr double kLeastSigma_m = 0.01;
 constexpr double kLeastSigma_rad = 0.003;
-// Weights of features_of(), by logistic regression on 13,037 pairs of visits to junctions of the
-// simulated buildings 1 to 14, 572 of them to the same junction, the others mostly to alike ones:
-// `cairn-lab recognition --worlds 14 --seed 1`, which fits them anew and tells how far they hold in
-// other buildings.
+// Weights of features_of(), by logistic regression on some 13,000 pairs of visits to junctions of
+// the simulated buildings 1 to 14, 570 of them to the same junction, the others mostly to alike
+// ones: `cairn-lab recognition --worlds 14 --seed 1`, which fits them anew and tells how far they
+// hold in other buildings.
 constexpr MatchFeatures kWeights{-16.303, -3.014, -3.052, 6.694};
 // Beyond this no pair was different, of 25,000, and 156 were the same, of 1,100: how much more it
 // says than this cannot be told.
