@@ -11,6 +11,7 @@
 #include "bench/lab/closures_command.hpp"
 #include "bench/lab/localmap_command.hpp"
 #include "bench/lab/places_command.hpp"
+#include "bench/lab/recognition_command.hpp"
 #include "bench/lab/rooms_command.hpp"
 #include "bench/lab/topology_command.hpp"
 #include "clients/common/failure.hpp"
@@ -40,6 +41,7 @@ int run_lab(const std::vector<std::string>& arguments, std::ostream& out, std::o
     add_closures_command(app, {out, err}, &status);
     add_buildings_command(app, {out, err}, &status);
     add_rooms_command(app, {out, err}, &status);
+    add_recognition_command(app, {out, err}, &status);
     std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
     app.parse(reversed);
     out.flush();

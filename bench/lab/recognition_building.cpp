@@ -19,6 +19,7 @@ constexpr double kMissingShare = 0.2;        // of the corridors
 constexpr double kChangingShare = 0.3;       // of doors and cupboards, from session to session
 constexpr double kPeoplePer_m = 0.03;        // of corridor
 constexpr double kAwayFromJunction_m = 0.7;  // beyond the walls of other corridors
+constexpr double kWay_m = 0.35;              // to either side of the robot's way that is kept free
 constexpr double kDoorRecess_m = 0.15;
 constexpr double kRoomDepth_m = 2.5;
 constexpr double kRoomWidth_m = 2.2;
@@ -301,11 +302,15 @@ sim::World Building::session(int number, int travels) const {
   }
   sim::World world;
   sim::Tour tour{"walk", {}};
+  Vector2d last = Vector2d::Zero();
   for (const int junction : random_walk(*this, travels, &random)) {
     const Vector2d& at = junctions_[static_cast<std::size_t>(junction)];
-    tour.waypoints.push_back({std::to_string(junction), {at.x(), at.y()}});
     // Nobody stands in the way.
-    drawing.fill(at - Vector2d::Constant(0.6), at + Vector2d::Constant(0.6), true);
+    const Vector2d& from = tour.waypoints.empty() ? at : last;
+    drawing.fill(at.cwiseMin(from) - Vector2d::Constant(kWay_m),
+                 at.cwiseMax(from) + Vector2d::Constant(kWay_m), true);
+    tour.waypoints.push_back({std::to_string(junction), {at.x(), at.y()}});
+    last = at;
   }
   world.tours.push_back(std::move(tour));
   world.plan = drawing.plan();

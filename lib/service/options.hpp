@@ -6,7 +6,7 @@
 #include "layout/place_layout.hpp"
 #include "lpm/localisation_health.hpp"
 #include "lpm/lpm_options.hpp"
-#include "lpm/map_matching.hpp"
+#include "lpm/map_match_options.hpp"
 #include "place/place_options.hpp"
 #include "planning/path.hpp"
 #include "sensing/scan_joiner.hpp"

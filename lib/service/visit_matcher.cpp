@@ -42,13 +42,19 @@ const MatchableMap& VisitMatcher::map_of(VisitId visit) const {
     found->second.used = ++uses_;
     return found->second.map;
   }
-  if (ready_.size() >= kMaxMapsReady) {
-    ready_.erase(std::min_element(ready_.begin(), ready_.end(), [](const auto& a, const auto& b) {
-      return a.second.used < b.second.used;
-    }));
+  // The last one stays: it is about to be compared with this one.
+  while (bytes_ready_ > kMaxBytesReady && ready_.size() > 1) {
+    const auto oldest = std::min_element(
+        ready_.begin(), ready_.end(),
+        [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
+    bytes_ready_ -= oldest->second.map.memory_bytes();
+    ready_.erase(oldest);
   }
   const OccupancyGrid& lpm = experience_.visits()[visit.index()].perceived.lpm;
-  return ready_.emplace(visit, ReadyMap{MatchableMap(lpm, options_), ++uses_}).first->second.map;
+  const MatchableMap& map =
+      ready_.emplace(visit, ReadyMap{MatchableMap(lpm, options_), ++uses_}).first->second.map;
+  bytes_ready_ += map.memory_bytes();
+  return map;
 }
 
 const GaussianPose& VisitMatcher::dead_reckoned(VisitId known, VisitId visit) const {

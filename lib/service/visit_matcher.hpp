@@ -28,9 +28,10 @@ class VisitMatcher {
   [[nodiscard]] const Recognition& compare(VisitId known, VisitId visit, GatewayPair pair) const;
 
   /// Natural log of how much better "the visit was to the known one's place" explains the local
-  /// maps and the dead reckoning between the two visits than "it was elsewhere". Minus infinity
-  /// where dead reckoning would have to be wrong by more than kRefutedAt_sigmas: then the maps are
-  /// not compared.
+  /// maps of the two visits than "it was elsewhere". Minus infinity where dead reckoning between
+  /// them would have to be wrong by more than kRefutedAt_sigmas: then the maps are not compared.
+  /// How far off it is below that does not count here: evidence by layout tells that of whole maps,
+  /// and would tell it twice.
   [[nodiscard]] double log_likelihood_ratio(VisitId known, VisitId visit, GatewayPair pair) const;
 
   /// The place frame of a visit in the frame of the place it was to: that of the place's first
@@ -42,9 +43,9 @@ class VisitMatcher {
   /// visit between them cannot be matched with its place.
   [[nodiscard]] std::vector<TravelConstraint> constraints(const TopologicalMap& map) const;
 
-  /// So many visits' maps are kept ready for comparison; the least recently used ones are dropped,
-  /// and worked out anew when they are needed. A map of 8 m x 8 m takes about 0.3 MB.
-  static constexpr std::size_t kMaxMapsReady = 256;
+  /// So much is kept of visits' maps made ready for comparison; beyond it the least recently used
+  /// ones are dropped, and worked out anew when they are needed. A map of 8 m x 8 m takes 0.3 MB.
+  static constexpr std::size_t kMaxBytesReady = std::size_t{128} << 20U;
 
   /// What dead reckoning says against the places of visits that cannot be matched with them, since
   /// no gateway was seen at both: the squared Mahalanobis distance from the place, as wide as it
@@ -64,7 +65,7 @@ class VisitMatcher {
                                                              VisitId visit) const;
   [[nodiscard]] const GaussianPose& dead_reckoned(VisitId known, VisitId visit) const;
 
-  /// @return valid until kMaxMapsReady others were asked for
+  /// @return valid until two other maps were asked for
   [[nodiscard]] const MatchableMap& map_of(VisitId visit) const;
 
   struct ReadyMap {
@@ -76,6 +77,7 @@ class VisitMatcher {
   MapMatchOptions options_;
   // Memos.
   mutable std::map<VisitId, ReadyMap> ready_;
+  mutable std::size_t bytes_ready_ = 0;
   mutable std::int64_t uses_ = 0;
   mutable std::map<std::tuple<VisitId, VisitId, GatewayPair>, Recognition> compared_;
   mutable std::map<std::pair<VisitId, VisitId>, GaussianPose> dead_reckoned_;

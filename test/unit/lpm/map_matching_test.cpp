@@ -52,7 +52,7 @@ TEST(MapMatching, TellsDifferentPlacesApart) {
   const MapMatch match =
       match_maps(map_of(furnished_room(), Pose2(), 1), map_of(another_room(), Pose2(), 2), Pose2());
   EXPECT_LT(match.occupied_agreement, 0.75);
-  EXPECT_LT(match.log_likelihood_ratio, -3.0);
+  EXPECT_LT(match.log_likelihood_ratio, -2.0);
 }
 
 TEST(MapMatching, HasNoOpinionWithoutCommonGround) {
