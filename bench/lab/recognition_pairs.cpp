@@ -43,10 +43,6 @@ bool are_true(const SimulatedVisit& known,
   });
 }
 
-int gateway_count(const SimulatedVisit& visit) {
-  return static_cast<int>(visit.perceived.neighbourhood.gateways.size());
-}
-
 JudgedPair judged(const SimulatedVisit& known,
                   const SimulatedVisit& visit,
                   const std::vector<GatewayPair>& pairs,
@@ -91,8 +87,8 @@ std::vector<JudgedPair> judged_pairs(const std::vector<SimulatedVisit>& visits,
       const SimulatedVisit& known = visits[earlier];
       const SimulatedVisit& visit = visits[later];
       for (const GatewayPair& pair : alignments(known.perceived, visit.perceived)) {
-        const std::vector<GatewayPair> pairs =
-            paired_gateways(gateway_count(known), gateway_count(visit), pair);
+        const std::vector<GatewayPair> pairs = paired_gateways(
+            known.perceived.neighbourhood.gateways, visit.perceived.neighbourhood.gateways, pair);
         const Pose2 guess = aligned_by_gateways(known.perceived, visit.perceived, pairs);
         all.push_back(
             judged(known, visit, pairs, match_maps(maps[earlier], maps[later], guess, options)));

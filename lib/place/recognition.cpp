@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/check.hpp"
 
 namespace cairn {
 namespace {
+
+/// Gateways are read farther in or out along their way, and turned a little.
+constexpr double kSameDirection_rad = 0.7;
+constexpr double kSameSpot_m = 3.0;
 
 /// Mean turn that takes the visit's outward directions to the known ones.
 double mean_turn(const std::vector<Gateway>& known,
@@ -43,6 +48,47 @@ Pose2 laid_on(const std::vector<Gateway>& known,
   return aligned(points_known, points_visit, mean_turn(known, visit, pairs));
 }
 
+/// The others follow the pair clockwise.
+std::vector<GatewayPair> paired_in_order(int count, GatewayPair pair) {
+  std::vector<GatewayPair> pairs;
+  for (int gateway = 0; gateway < count; ++gateway) {
+    pairs.push_back({(gateway + pair.known - pair.visit + count) % count, gateway});
+  }
+  return pairs;
+}
+
+/// Whether gateways that are said to be the same lead in the same directions, one turn for all.
+bool lead_alike(const std::vector<Gateway>& known,
+                const std::vector<Gateway>& visit,
+                const std::vector<GatewayPair>& pairs) {
+  const double turn_rad = mean_turn(known, visit, pairs);
+  return std::all_of(pairs.begin(), pairs.end(), [&](const GatewayPair& pair) {
+    const double bearing_rad =
+        visit[static_cast<std::size_t>(pair.visit)].outward_bearing_rad + turn_rad;
+    return std::abs(turn_between(bearing_rad,
+                                 known[static_cast<std::size_t>(pair.known)].outward_bearing_rad)) <
+           kSameDirection_rad;
+  });
+}
+
+/// Of the known gateways not taken yet that lead in the same direction, the nearest one.
+std::optional<std::size_t> nearest_alike(const std::vector<Gateway>& known,
+                                         const std::vector<bool>& is_taken,
+                                         const Gateway& seen) {
+  std::optional<std::size_t> nearest;
+  double least_m = kSameSpot_m;
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    const double away_m = (known[k].middle - seen.middle).norm();
+    if (!is_taken[k] && away_m < least_m &&
+        std::abs(turn_between(seen.outward_bearing_rad, known[k].outward_bearing_rad)) <
+            kSameDirection_rad) {
+      least_m = away_m;
+      nearest = k;
+    }
+  }
+  return nearest;
+}
+
 }  // namespace
 
 Pose2 aligned(const std::vector<Vector2d>& points_a,
@@ -70,14 +116,30 @@ Pose2 aligned(const std::vector<Vector2d>& points_a,
   return {Vector2d(mean_a - rotated), theta};
 }
 
-std::vector<GatewayPair> paired_gateways(int known_count, int visit_count, GatewayPair pair) {
-  if (known_count != visit_count) {
-    return {pair};
+std::vector<GatewayPair> paired_gateways(const std::vector<Gateway>& known,
+                                         const std::vector<Gateway>& visit,
+                                         GatewayPair pair) {
+  if (known.size() == visit.size()) {
+    const std::vector<GatewayPair> all = paired_in_order(static_cast<int>(known.size()), pair);
+    if (lead_alike(known, visit, all)) {
+      return all;
+    }
   }
+  const Pose2 T_known_visit = laid_on(known, visit, {pair});
   std::vector<GatewayPair> pairs;
-  for (int gateway = 0; gateway < visit_count; ++gateway) {
-    const int shift = pair.known - pair.visit + known_count;
-    pairs.push_back({(gateway + shift) % known_count, gateway});
+  std::vector<bool> is_taken(known.size(), false);
+  is_taken[static_cast<std::size_t>(pair.known)] = true;
+  for (int v = 0; v < static_cast<int>(visit.size()); ++v) {
+    if (v == pair.visit) {
+      pairs.push_back(pair);
+      continue;
+    }
+    const Gateway seen = transformed(T_known_visit, visit[static_cast<std::size_t>(v)]);
+    const std::optional<std::size_t> same = nearest_alike(known, is_taken, seen);
+    if (same) {
+      is_taken[*same] = true;
+      pairs.push_back({static_cast<int>(*same), v});
+    }
   }
   return pairs;
 }

@@ -23,11 +23,12 @@ struct GatewayPair {
   friend auto operator<=>(const GatewayPair&, const GatewayPair&) = default;
 };
 
-/// All gateways that are the same, if one pair is: where both visits saw as many, the others follow
-/// clockwise; where one of them missed some, only the pair itself is sure.
+/// All gateways that are the same, if one pair is: where both visits saw as many, in the same
+/// directions, the others follow clockwise; else those that, with the pair laid on each other, lead
+/// in the same direction from about the same spot. In the order of the visit's gateways.
 /// @pre the gateways exist
-[[nodiscard]] std::vector<GatewayPair> paired_gateways(int known_count,
-                                                       int visit_count,
+[[nodiscard]] std::vector<GatewayPair> paired_gateways(const std::vector<Gateway>& known,
+                                                       const std::vector<Gateway>& visit,
                                                        GatewayPair pair);
 
 /// Compares the local map of a visit with that of a known one whose gateways correspond: the

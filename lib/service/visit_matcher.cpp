@@ -16,10 +16,10 @@ constexpr double kLeastWide_m = 1.0;
 
 std::vector<GatewayPair> VisitMatcher::pairs(VisitId known, VisitId visit, GatewayPair pair) const {
   const std::vector<Visit>& visits = experience_.visits();
-  const auto count = [&](VisitId id) {
-    return static_cast<int>(visits[id.index()].perceived.neighbourhood.gateways.size());
+  const auto gateways = [&](VisitId id) -> const std::vector<Gateway>& {
+    return visits[id.index()].perceived.neighbourhood.gateways;
   };
-  return paired_gateways(count(known), count(visit), pair);
+  return paired_gateways(gateways(known), gateways(visit), pair);
 }
 
 const Recognition& VisitMatcher::compare(VisitId known, VisitId visit, GatewayPair pair) const {
