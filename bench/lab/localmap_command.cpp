@@ -50,6 +50,7 @@ OrderedJson json_of(const LocalmapRun& run, const std::optional<RelationReport>&
   OrderedJson json = {
       {"scans", run.track.size()},    {"travel_m", run.travel_m()},
       {"refused", run.refused},       {"restarts", run.restarts},
+      {"renewals", run.renewals},     {"scan_lag_s", run.scan_lag_s},
       {"degenerate", run.degenerate}, {"notes", run.notes},
       {"faults", run.faults},         {"scans_without_odometry", run.joiner.scans_without_odometry},
       {"map_bytes", run.map_bytes},   {"peak_resident_bytes", peak_resident_bytes()},
@@ -84,7 +85,8 @@ void print(const RelationErrors& errors, const std::string& which, std::ostream&
 void print(const LocalmapRun& run, const std::optional<RelationReport>& report, std::ostream& out) {
   out << grouped(static_cast<std::int64_t>(run.track.size())) << " scans, "
       << fixed(run.travel_m(), 1) << " m; refused " << run.refused << ", restarts " << run.restarts
-      << ", degenerate " << run.degenerate << "; local map "
+      << ", renewals " << run.renewals << ", scans late by " << fixed(run.scan_lag_s, 2)
+      << " s, degenerate " << run.degenerate << "; local map "
       << clients::byte_size(static_cast<std::int64_t>(run.map_bytes)) << '\n';
   for (const auto& [note, count] : run.notes) {
     out << "  " << note << ": " << grouped(count) << '\n';

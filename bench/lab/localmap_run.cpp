@@ -79,6 +79,8 @@ class Runner {
     joiner_.flush();
     absorb_joined();
     run_->restarts = mapper_.restarts();
+    run_->renewals = mapper_.renewals();
+    run_->scan_lag_s = mapper_.scan_lag_s();
     run_->map_bytes = mapper_.memory_bytes();
     run_->joiner = joiner_.counters();
   }

@@ -47,6 +47,8 @@ struct LocalmapRun {
   std::map<std::string, std::int64_t> faults;  ///< Scans at which odometry disagreed, by reason.
   std::int64_t refused = 0;
   std::int64_t restarts = 0;
+  std::int64_t renewals = 0;
+  double scan_lag_s = 0.0;
   std::int64_t degenerate = 0;
   std::size_t map_bytes = 0;
   StageTimes matching;

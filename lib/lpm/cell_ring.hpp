@@ -47,6 +47,18 @@ class CellRing {
 
   void clear() { std::fill(cells_.begin(), cells_.end(), fill_); }
 
+  /// Fills the cells from `low` up to, and without, those of `end`.
+  /// @pre they lie within the window
+  void fill(Cell low, Cell end) {
+    for (int y = low.y; y < end.y; ++y) {
+      for (int x = low.x; x < end.x;) {
+        const int run = run_length({x, y}, end.x - x);
+        std::fill_n(&cells_[index_of({x, y})], run, fill_);
+        x += run;
+      }
+    }
+  }
+
   [[nodiscard]] std::size_t memory_bytes() const { return cells_.capacity() * sizeof(T); }
 
  private:
@@ -55,14 +67,6 @@ class CellRing {
                               static_cast<std::size_t>(c.y) * static_cast<std::size_t>(width_) +
                               static_cast<std::size_t>(c.x);
     return index < cells_.size() ? index : index - cells_.size();
-  }
-
-  void fill(Cell low, Cell end) {
-    for (int y = low.y; y < end.y; ++y) {
-      for (int x = low.x; x < end.x; ++x) {
-        cells_[index_of({x, y})] = fill_;
-      }
-    }
   }
 
   int width_;

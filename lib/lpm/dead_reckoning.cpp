@@ -22,6 +22,10 @@ DeadReckoning::DeadReckoning(const MotionOptions& options, const MotionWatchOpti
 void DeadReckoning::start(TimePoint time, const std::optional<Pose2>& T_odom_robot) {
   time_ = time;
   T_odom_robot_ = T_odom_robot;
+  lag_.interrupt();
+  if (T_odom_robot) {
+    lag_.add(time, *T_odom_robot);
+  }
   velocity_.reset();
   model_.skip();
   watch_.interrupt();
@@ -39,7 +43,20 @@ void DeadReckoning::begin(const JoinedScan& joined) {
   }
   time_ = joined.scan.time;
   T_odom_robot_ = joined.T_odom_robot;
+  take_off_lag();
   note_repeat(joined.scan);
+}
+
+void DeadReckoning::take_off_lag() {
+  if (!is_possible_) {
+    lag_.interrupt();
+  }
+  if (T_odom_robot_) {
+    lag_.add(time_, *T_odom_robot_);
+  }
+  if (is_possible_ && lag_.lag_s() > 0.0) {
+    T_odom_step_ = lag_.step().value_or(*T_odom_step_);
+  }
 }
 
 void DeadReckoning::note_repeat(const LaserScan& scan) {
@@ -81,6 +98,9 @@ MotionFault DeadReckoning::end(const std::optional<GaussianPose>& matched) {
     model_.skip();
     watch_.interrupt();
     return has_jumped() ? MotionFault::kTeleport : MotionFault::kNone;
+  }
+  if (is_possible_) {
+    lag_.learn(matched->mean.theta());
   }
   const MotionFault fault = watch_.judge(
       {dt_s_, *T_odom_step_, model_.predict(*T_odom_step_), *matched, is_scan_repeated_});

@@ -8,6 +8,7 @@
 #include "lpm/motion_model.hpp"
 #include "lpm/motion_watch.hpp"
 #include "lpm/scan_beams.hpp"
+#include "lpm/scan_lag.hpp"
 #include "sensing/scan_joiner.hpp"
 
 namespace cairn {
@@ -35,7 +36,11 @@ class DeadReckoning {
   [[nodiscard]] GaussianPose continued() const { return widened(velocity_.predict(dt_s_)); }
   /// Odometry jumped farther than the robot can drive.
   [[nodiscard]] bool has_jumped() const { return T_odom_step_ && !is_possible_; }
+  /// Odometry tells the step, and the robot can have driven so.
+  [[nodiscard]] bool has_odometry() const { return is_possible_; }
   [[nodiscard]] double dt_s() const { return dt_s_; }
+  /// By how much scans are stamped later than odometry, as far as turns have shown it. >= 0
+  [[nodiscard]] double scan_lag_s() const { return lag_.lag_s(); }
 
   /// Ends the step.
   /// @param matched the step by scan matching, with the covariance of the returns alone; none where
@@ -45,6 +50,7 @@ class DeadReckoning {
 
  private:
   [[nodiscard]] GaussianPose widened(GaussianPose motion) const;
+  void take_off_lag();
   void note_repeat(const LaserScan& scan);
 
   MotionOptions options_;
@@ -52,6 +58,7 @@ class DeadReckoning {
   MotionModel model_;
   ConstantVelocity velocity_;
   MotionWatch watch_;
+  ScanLag lag_;
   TimePoint time_;
   std::optional<Pose2> T_odom_robot_;
   // Of the step under way.

@@ -115,11 +115,7 @@ void DistanceField::renew(const OccupancyGrid& grid, Cell low, Cell high) {
   Cell from;
   Cell to;
   grown(low, high, kReachCells, &from, &to);
-  for (int y = from.y; y <= to.y; ++y) {
-    for (int x = from.x; x <= to.x; ++x) {
-      nearest_[{x, y}] = kNone;
-    }
-  }
+  nearest_.fill(from, {to.x + 1, to.y + 1});
   Cell wall_from;
   Cell wall_to;
   grown(from, to, kReachCells, &wall_from, &wall_to);

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include "base/check.hpp"
+#include "lpm/scan_continuity.hpp"
 
 namespace cairn {
 namespace {
@@ -26,6 +27,7 @@ constexpr double kSlip = 9.0;               // squared Mahalanobis of fix and wi
 constexpr double kGoodScore = 0.85;         // a match that leaves no wish for another
 constexpr double kLeastOfUsualScore = 0.6;  // a sudden fall below it is a wrong match
 constexpr double kClearlyBetter = 0.05;     // in score
+constexpr double kGoesOn = 0.65;            // of returns: the surroundings are those of before
 constexpr double kRadPerTravel_m = 3.0;     // a turn of 1 rad renews the map as so much travel
 
 Matrix3d diagonal(double sigma_x_m, double sigma_y_m, double sigma_rad) {
@@ -127,6 +129,7 @@ LocalFix LocalMapper::locate(const JoinedScan& joined) {
     }
   }
   advance(joined, &fix);
+  note_way(fix);
   correct_heading(&fix);
   return fix;
 }
@@ -189,6 +192,22 @@ void LocalMapper::advance(const JoinedScan& joined, LocalFix* fix) {
   refusals_ = is_refused(fix->note) ? refusals_ + 1 : 0;
 }
 
+/// Whether it is known how the robot came from where it was matched last, though no map says so.
+void LocalMapper::note_way(const LocalFix& fix) {
+  if (fix.note == FixNote::kBlockedSensor) {
+    return;
+  }
+  Seen& seen = seen_[laser_];
+  is_way_known_ =
+      !is_refused(fix.note) ||
+      (is_way_known_ && motion_.has_odometry() &&
+       continuity(beams_, seen.returns, seen.T_lpm_robot.inverse() * T_lpm_robot_) >= kGoesOn);
+  seen.T_lpm_robot = T_lpm_robot_;
+  seen.returns.resize(beams_.returns().size());
+  std::transform(beams_.returns().begin(), beams_.returns().end(), seen.returns.begin(),
+                 [](const SurfacePoint& point) { return point.p; });
+}
+
 void LocalMapper::correct_heading(LocalFix* fix) {
   const double correction_rad = heading_drift_.correction_rad();
   fix->motion.mean = fix->motion.mean * Pose2(0.0, 0.0, correction_rad - heading_correction_rad_);
@@ -217,11 +236,16 @@ bool LocalMapper::take_up(const LocalFix& fix) {
     return false;
   }
   if (fix.note == FixNote::kContradiction) {
-    is_due = refusals_ >= options_.refusals_before_restart;
-    if (is_due) {
+    if (refusals_ < options_.refusals_before_restart) {
+      return false;
+    }
+    if (!is_way_known_) {
       start_anew();
       return true;
     }
+    clear_map();
+    ++renewals_;
+    is_due = true;
   }
   if (is_due) {
     draw();
@@ -230,10 +254,14 @@ bool LocalMapper::take_up(const LocalFix& fix) {
 }
 
 void LocalMapper::start_anew() {
-  map_.clear();
-  T_lpm_drawn_.clear();
+  clear_map();
   ++restarts_;
   draw();
+}
+
+void LocalMapper::clear_map() {
+  map_.clear();
+  T_lpm_drawn_.clear();
 }
 
 void LocalMapper::draw() {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "geometry/gaussian_pose.hpp"
 #include "grid/occupancy_grid.hpp"
@@ -80,8 +81,14 @@ class LocalMapper {
 
   /// The occupancy grid around the robot, in the lpm frame. Its origin moves by whole cells.
   [[nodiscard]] const OccupancyGrid& grid() const { return map_.grid(); }
-  /// How often the map was started afresh, since nothing fitted any more.
+  /// How often the map was started afresh, since nothing fitted any more, and it was not known how
+  /// the robot had come to where it is.
   [[nodiscard]] std::int64_t restarts() const { return restarts_; }
+  /// How often the map was drawn anew around the robot, since nothing fitted any more, while the
+  /// way was known: odometry was sound, and the surroundings went on from scan to scan.
+  [[nodiscard]] std::int64_t renewals() const { return renewals_; }
+  /// By how much scans are stamped later than odometry, as far as turns have shown it. >= 0
+  [[nodiscard]] double scan_lag_s() const { return motion_.scan_lag_s(); }
   /// What the map and the search upon it hold.
   [[nodiscard]] std::size_t memory_bytes() const;
 
@@ -101,6 +108,8 @@ class LocalMapper {
   void advance(const JoinedScan& joined, LocalFix* fix);
   void correct_heading(LocalFix* fix);
   void ask_walls();
+  void note_way(const LocalFix& fix);
+  void clear_map();
   void draw();
 
   LpmOptions options_;
@@ -115,10 +124,18 @@ class LocalMapper {
   Pose2 T_lpm_robot_;
   Matrix3d uncertainty_ = Matrix3d::Zero();  // of dead reckoning since the last match, lpm frame
   std::map<int, Pose2> T_lpm_drawn_;         // by laser: where the map took its last scan
-  int laser_ = 0;                            // of the scan taken last
+  /// What a laser saw last, if it was not blocked.
+  struct Seen {
+    Pose2 T_lpm_robot;
+    std::vector<Vector2d> returns;
+  };
+  std::map<int, Seen> seen_;   // by laser
+  bool is_way_known_ = false;  // since the last match
+  int laser_ = 0;              // of the scan taken last
   double travel_m_ = 0.0;
   int refusals_ = 0;
   std::int64_t restarts_ = 0;
+  std::int64_t renewals_ = 0;
 };
 
 }  // namespace cairn

@@ -79,14 +79,16 @@ void ScanBeams::find_normals() {
 /// Across the line through the neighbours on the same surface.
 Vector2d ScanBeams::normal_at(std::size_t i) const {
   const Vector2d p = returns_[i].p;
-  const auto gap_m = [this](std::size_t a, std::size_t b) {
-    return (returns_[a].p - returns_[b].p).norm();
+  constexpr double kNeighbour_m2 = kNeighbour_m * kNeighbour_m;
+  constexpr double kEdge2 = kEdge * kEdge;
+  const auto gap_m2 = [this](std::size_t a, std::size_t b) {
+    return (returns_[a].p - returns_[b].p).squaredNorm();
   };
-  const double before_m = i > 0 ? gap_m(i - 1, i) : kNeighbour_m;
-  const double after_m = i + 1 < returns_.size() ? gap_m(i, i + 1) : kNeighbour_m;
+  const double before_m2 = i > 0 ? gap_m2(i - 1, i) : kNeighbour_m2;
+  const double after_m2 = i + 1 < returns_.size() ? gap_m2(i, i + 1) : kNeighbour_m2;
   // Across an edge the neighbour belongs to another surface.
-  std::size_t first = before_m < kNeighbour_m && before_m < kEdge * after_m ? i - 1 : i;
-  std::size_t last = after_m < kNeighbour_m && after_m < kEdge * before_m ? i + 1 : i;
+  std::size_t first = before_m2 < kNeighbour_m2 && before_m2 < kEdge2 * after_m2 ? i - 1 : i;
+  std::size_t last = after_m2 < kNeighbour_m2 && after_m2 < kEdge2 * before_m2 ? i + 1 : i;
   if (first == last) {
     return Vector2d::Zero();
   }

@@ -34,6 +34,70 @@ double share_freed_by_neighbours(const ScanBeams& beams, std::size_t i, double c
   return std::clamp(free_m / own_m, 0.0, 1.0);
 }
 
+/// The way of a beam from cell to cell, one per column, or row where it is steep; as far as it lies
+/// within the window.
+struct BeamWalk {
+  static constexpr double kOne = 65'536.0 * 65'536.0;
+
+  /// @param from, to in cells
+  BeamWalk(const GridGeometry& geometry, const Vector2d& from, const Vector2d& to) {
+    const Vector2d way = to - from;
+    is_steep = std::abs(way.y()) > std::abs(way.x());
+    const int major = is_steep ? 1 : 0;
+    const int minor = 1 - major;
+    if (way[major] == 0.0) {
+      return;
+    }
+    const int major_size = is_steep ? geometry.height : geometry.width;
+    const int minor_size = is_steep ? geometry.width : geometry.height;
+    const double slope = way[minor] / way[major];
+    direction = way[major] > 0.0 ? 1 : -1;
+    at = static_cast<int>(std::floor(std::clamp(from[major], 0.0, major_size - 1.0)));
+    const int last = static_cast<int>(std::floor(std::clamp(to[major], -1.0, 1.0 * major_size)));
+    const int within = direction > 0 ? major_size - at : at + 1;
+    steps = std::clamp(direction * (last - at) + 1, 0, within);
+    across = static_cast<std::int64_t>(kOne * (from[minor] + slope * (at + 0.5 - from[major])));
+    across_step = static_cast<std::int64_t>(kOne * slope * direction);
+    stay_within(minor_size);
+    along_stride = direction * (is_steep ? geometry.width : 1);
+    across_stride = is_steep ? 1 : geometry.width;
+    first = std::ptrdiff_t{at} * (is_steep ? geometry.width : 1);
+    constexpr int kHalf = ScrollingMap::kBlockCells / 2;
+    first_seen = direction > 0 ? (kHalf - at % kHalf) % kHalf : at % kHalf;
+  }
+
+  [[nodiscard]] Cell cell_at(int step) const {
+    const int along = at + direction * step;
+    const auto other = static_cast<int>((across + step * across_step) >> 32U);
+    return is_steep ? Cell{other, along} : Cell{along, other};
+  }
+
+  int steps = 0;
+  std::int64_t across = 0;  // of the first step, in 2^-32 cells
+  std::int64_t across_step = 0;
+  std::ptrdiff_t first = 0;  // index of the first step, but for what lies across
+  std::ptrdiff_t along_stride = 0;
+  std::ptrdiff_t across_stride = 0;
+  int first_seen = 0;  // step at which a block is entered, or left halfway
+
+ private:
+  /// No step after the first one that leaves the window.
+  void stay_within(int minor_size) {
+    const auto end = static_cast<std::int64_t>(minor_size) << 32U;
+    if (across < 0 || across >= end) {
+      steps = 0;
+    } else if (across_step > 0) {
+      steps = static_cast<int>(std::min<std::int64_t>(steps, 1 + (end - 1 - across) / across_step));
+    } else if (across_step < 0) {
+      steps = static_cast<int>(std::min<std::int64_t>(steps, 1 + across / -across_step));
+    }
+  }
+
+  bool is_steep = false;
+  int direction = 1;
+  int at = 0;
+};
+
 }  // namespace
 
 void ScrollingMap::insert(const LaserScan& scan, const Pose2& T_lpm_robot, double travel_m) {
@@ -94,50 +158,32 @@ void ScrollingMap::mark_returns(const ScanBeams& beams, const Pose2& T_lpm_robot
 /// Steps from column to column, or from row to row where the beam is steep, in fixed point.
 template <bool has_return>
 void ScrollingMap::free_beam(const Vector2d& from, const Vector2d& to) {
-  const GridGeometry& geometry = grid_.geometry();
-  const Vector2d way = to - from;
-  const bool is_steep = std::abs(way.y()) > std::abs(way.x());
-  const int major = is_steep ? 1 : 0;
-  const int minor = 1 - major;
-  if (way[major] == 0.0) {
-    return;
-  }
-  const int major_size = is_steep ? geometry.height : geometry.width;
-  const int minor_size = is_steep ? geometry.width : geometry.height;
-  const double slope = way[minor] / way[major];
-  const int direction = way[major] > 0.0 ? 1 : -1;
-  const double last_major = std::clamp(to[major], -1.0, major_size + 0.0);
-  int at = static_cast<int>(std::floor(std::clamp(from[major], 0.0, major_size - 1.0)));
-  const int end = static_cast<int>(std::floor(last_major)) + direction;
-  constexpr double kOne = 65'536.0 * 65'536.0;
-  auto across = static_cast<std::int64_t>(kOne * (from[minor] + slope * (at + 0.5 - from[major])));
-  const auto across_step = static_cast<std::int64_t>(kOne * slope * direction);
-  const std::size_t major_stride = is_steep ? static_cast<std::size_t>(geometry.width) : 1U;
-  const std::size_t minor_stride = is_steep ? 1U : static_cast<std::size_t>(geometry.width);
+  const BeamWalk walk(grid_.geometry(), from, to);
+  // The marks are bytes, which may be anything to a compiler: so nothing is looked up through this.
+  std::uint8_t* const marks = marks_.data();
+  OccupancyGrid::LogOdds* const cells = grid_.cells().data();
+  const std::uint8_t scan_mark = scan_mark_;
   const int miss = stored(options_.miss_log_odds);
   const int limit = stored(options_.max_log_odds);
-  for (; at != end && at >= 0 && at < major_size; at += direction, across += across_step) {
-    const auto other = static_cast<int>(across >> 32U);
-    if (other < 0 || other >= minor_size) {
-      return;
+  std::int64_t across = walk.across;
+  std::ptrdiff_t along = walk.first;
+  int step = 0;
+  for (; step < walk.steps; ++step, across += walk.across_step, along += walk.along_stride) {
+    const std::ptrdiff_t index = along + (across >> 32U) * walk.across_stride;
+    if (!has_return && cells[index] > OccupancyGrid::kOccupiedAbove) {
+      break;
     }
-    const std::size_t index = static_cast<std::size_t>(at) * major_stride +
-                              static_cast<std::size_t>(other) * minor_stride;
-    if (!has_return && grid_.cells()[index] > OccupancyGrid::kOccupiedAbove) {
-      return;
+    // Whether a cell was passed before in this scan is anybody's guess: no branch on that.
+    const int value = cells[index];
+    const int next = std::max(value - (marks[index] != scan_mark ? miss : 0), -limit);
+    marks[index] = scan_mark;
+    cells[index] = static_cast<OccupancyGrid::LogOdds>(next);
+    if (value > OccupancyGrid::kOccupiedAbove && next <= OccupancyGrid::kOccupiedAbove) {
+      lost_walls_.push_back(static_cast<std::size_t>(index));
     }
-    if (marks_[index] != scan_mark_) {
-      marks_[index] = scan_mark_;
-      OccupancyGrid::LogOdds& value = grid_.cells()[index];
-      const int next = std::max(value - miss, -limit);
-      if (value > OccupancyGrid::kOccupiedAbove && next <= OccupancyGrid::kOccupiedAbove) {
-        lost_walls_.push_back(index);
-      }
-      value = static_cast<OccupancyGrid::LogOdds>(next);
-    }
-    if (at % (kBlockCells / 2) == 0) {
-      see_block(is_steep ? Cell{other, at} : Cell{at, other});
-    }
+  }
+  for (int i = walk.first_seen; i < step; i += kBlockCells / 2) {
+    see_block(walk.cell_at(i));
   }
 }
 

@@ -21,7 +21,7 @@ struct Round {
   double converged_rad = 0.0;
 };
 constexpr Round kWideRound{4.0, 12, 4e-3, 1e-3};
-constexpr Round kNarrowRound{1.0, 12, 3e-4, 1e-4};
+constexpr Round kNarrowRound{1.0, 12, 6e-4, 2e-4};
 constexpr std::size_t kPointsOfWideRound = 60;
 constexpr double kLeastSpread_m = 0.01;
 constexpr double kMaxDamping = 1e6;
@@ -207,6 +207,10 @@ NormalEquations descend(const Problem& problem, const Round& round, Pose2* pose)
     const bool is_converged =
         move.head<2>().norm() < round.converged_m && std::abs(move.z()) < round.converged_rad;
     const Pose2 next(pose->x() + move.x(), pose->y() + move.y(), pose->theta() + move.z());
+    if (is_converged) {
+      *pose = next;  // so near that nothing looks any different from there
+      break;
+    }
     const NormalEquations there = equations_at(problem, next, round.loss_scale_in_sigmas);
     if (there.cost <= here.cost) {
       damping = 0.0;
@@ -214,9 +218,6 @@ NormalEquations descend(const Problem& problem, const Round& round, Pose2* pose)
       here = there;
     } else {
       damping = damping == 0.0 ? 1.0 : 8.0 * damping;
-    }
-    if (is_converged) {
-      break;
     }
   }
   return here;

@@ -35,7 +35,7 @@ struct ServiceOptions {
     // Stars read from noisy maps need the posterior; see docs/decisions/0005-order-by-posterior.md.
     topology.noisy_stars = true;
     topology.preference = Preference::kPosterior;
-    topology.log_prior_new_place = -8.0;
+    topology.log_prior_new_place = -3.0;
   }
 };
 

@@ -21,6 +21,8 @@ struct Track {
   std::map<double, double> travel_m;
   std::size_t scans = 0;
   std::size_t refused = 0;
+  std::int64_t restarts = 0;
+  double scan_lag_s = 0.0;
 };
 
 Track track_of(const std::string& log) {
@@ -53,6 +55,8 @@ Track track_of(const std::string& log) {
   }
   joiner.flush();
   drain();
+  track.restarts = mapper.restarts();
+  track.scan_lag_s = mapper.scan_lag_s();
   return track;
 }
 
@@ -183,6 +187,24 @@ TEST(LocalMapperOnAces, KeepsTrackOfSparseKeyFrames) {
   const std::vector<Error> errors = stretch_errors(track, "carmen/aces/aces.ref.txt", 5.0);
   ASSERT_GT(errors.size(), 300U);
   EXPECT_LT(mean_m(errors), 0.15);
+}
+
+// Turns of 2 rad/s among legs of tables, by scans that are stamped more than a sweep too late.
+TEST(LocalMapperInTheMines, FindsTheLagOfTheScansAndNeverLosesTheWay) {
+  CAIRN_NEED_DATA("laser/mines/exp1.clf");
+  const Track track = track_of("laser/mines/exp1.clf");
+  EXPECT_EQ(track.scans, 756U);
+  EXPECT_EQ(track.restarts, 0);
+  EXPECT_LT(track.refused, 46U);
+  EXPECT_GT(track.scan_lag_s, 0.08);
+  EXPECT_LT(track.scan_lag_s, 0.22);
+}
+
+TEST(LocalMapperOnADukeCorridor, RefusesNoScan) {
+  CAIRN_NEED_DATA("laser/duke_loop5/loop5.clf");
+  const Track track = track_of("laser/duke_loop5/loop5.clf");
+  EXPECT_EQ(track.refused, 1U) << "the first, which has nothing to be matched with";
+  EXPECT_EQ(track.restarts, 0);
 }
 
 }  // namespace

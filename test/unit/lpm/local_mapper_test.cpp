@@ -186,6 +186,8 @@ TEST(LocalMapper, StartsAfreshWhenItIsElsewhere) {
   }
   EXPECT_EQ(notes[1], FixNote::kContradiction);
   EXPECT_EQ(notes.back(), FixNote::kMatched);
+  EXPECT_EQ(mapper.restarts(), 1);
+  EXPECT_EQ(mapper.renewals(), 0) << "the way there is not known";
 }
 
 TEST(LocalMapper, IsTheSameForTheSameScans) {
