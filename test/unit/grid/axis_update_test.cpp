@@ -178,8 +178,9 @@ TEST(AxisUpdate, EveryAxisCellHasItsOwnClearance) {
   }
 }
 
-TEST(AxisUpdate, ACorridorOfOneCellIsItsOwnAxis) {
-  const OccupancyGrid corridor = grid_of({"############", "............", "############"}, 1.0);
+TEST(AxisUpdate, ACorridorOfTwoCellsHasALineOfOne) {
+  const OccupancyGrid corridor =
+      grid_of({"############", "............", "............", "############"}, 1.0);
   const MedialAxis axis = medial_axis(distance_transform(corridor), {5, 1}, {});
   ASSERT_EQ(axis.edges.size(), 1U);
   EXPECT_EQ(axis.edges[0].cells.size(), 12U);
