@@ -20,6 +20,10 @@ double intersection(int p, double height_p, int q, double height_q) {
 /// The free cells of a run, by the walls above and below them and those at its ends: where few of
 /// these are new, by what was known of the others.
 void DistanceUpdate::update_run(const Run& run) {
+  if (is_first_) {
+    renew_run(run);
+    return;
+  }
   const std::int32_t* const to_nearest = to_nearest_.data() + run.row;
   const std::int32_t* const was = to_nearest_was_.data() + run.row;
   new_columns_.clear();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "grid/cell_runs.hpp"
@@ -54,6 +55,7 @@ void look_up(const std::uint8_t* is_free,
 }  // namespace
 
 void DistanceUpdate::begin(const GridGeometry& geometry, const GridWindow& window) {
+  is_first_ = true;
   const auto width = static_cast<std::size_t>(window.width);
   const auto height = static_cast<std::size_t>(window.height);
   const std::size_t count = width * height;
@@ -82,6 +84,11 @@ void DistanceUpdate::update(const StateGrid& grid, Cell moved) {
   }
   std::copy(grid.cells().begin(), grid.cells().end(), result_.state_.begin());
   update_rows(moved);
+  if (is_first_) {
+    changed_.resize(result_.state_.size());
+    std::iota(changed_.begin(), changed_.end(), 0U);
+  }
+  is_first_ = false;
 }
 
 DistanceTransform DistanceUpdate::of_part(const OccupancyGrid& grid, const GridWindow& window) {
@@ -159,12 +166,13 @@ bool DistanceUpdate::is_as_it_was(std::size_t first, std::size_t last) const {
 }
 
 void DistanceUpdate::put(std::size_t row, std::size_t x, std::int32_t squared, CellOffset to) {
-  if (result_.squared_cells_[row + x] == squared && result_.to_basis_[row + x] == to) {
-    return;
-  }
+  const bool is_new =
+      result_.squared_cells_[row + x] != squared || result_.to_basis_[row + x] != to;
   result_.squared_cells_[row + x] = squared;
   result_.to_basis_[row + x] = to;
-  changed_.push_back(static_cast<std::uint32_t>(row + x));
+  if (is_new && !is_first_) {
+    changed_.push_back(static_cast<std::uint32_t>(row + x));
+  }
 }
 
 /// Cells that are not free are their own basis points.

@@ -69,6 +69,7 @@ class DistanceUpdate {
   DistanceTransform result_;
   std::vector<std::uint32_t> changed_;
   std::size_t height_ = 0;
+  bool is_first_ = true;  ///< Nothing was computed before: all is new.
   std::vector<std::uint8_t> is_free_;
   std::vector<std::int32_t> to_nearest_;      ///< Rows up to the nearest cell that is not free.
   std::vector<std::int32_t> to_nearest_was_;  ///< The same for the state before.
