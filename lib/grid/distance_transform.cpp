@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "grid/distance_update.hpp"
+
 namespace cairn {
 namespace {
 

@@ -87,61 +87,6 @@ class DistanceTransform {
   std::vector<CellOffset> to_basis_;
 };
 
-/// The part of a row of the window where something is not as it was before.
-struct RowChange {
-  int first = 0;  ///< Column in the window.
-  int last = 0;   ///< Behind the last changed one; equal to `first` where nothing has changed.
-};
-
-/// A distance transform that follows a map from one state to the next: only where distances may
-/// have changed they are computed anew. The result is that of a full computation.
-///
-/// Free cells of a row between two that are not see no farther, within the row, than those two; so
-/// such a run is left as it is while the nearest walls above and below its cells are the same.
-///
-/// Source: as `distance_transform`. Cost: a linear pass with very little work per cell, and the
-/// envelope of parabolas for the runs that are computed anew.
-class DistanceUpdate {
- public:
-  /// Takes the next state of the map, or the first one.
-  /// @param moved by how many cells the window has moved since, over the same ground; what was in
-  ///     cell c is now in cell c - moved. Of no account with the first grid, or one of other size.
-  void update(const StateGrid& grid, Cell moved);
-
-  [[nodiscard]] const DistanceTransform& distances() const { return result_; }
-  /// By row: where clearance or basis points are not what they were in the same place.
-  [[nodiscard]] const std::vector<RowChange>& changes() const { return changes_; }
-
- private:
-  friend DistanceTransform distance_transform(const OccupancyGrid& grid, const GridWindow& window);
-
-  [[nodiscard]] static DistanceTransform of_part(const OccupancyGrid& grid,
-                                                 const GridWindow& window);
-  /// The lower envelope of the parabolas (x - position)^2 + height.
-  struct Parabola {
-    int position = 0;
-    double height = 0.0;
-    double start = 0.0;  ///< Where it begins to be the lowest.
-  };
-
-  void begin(const GridGeometry& geometry, const GridWindow& window);
-  void shift(Cell moved);
-  void find_nearest_in_columns();
-  void update_rows(Cell moved);
-  void update_row(std::size_t y, Cell moved);
-  void clear_cells(std::size_t row, std::size_t first, std::size_t last, RowChange* change);
-  void update_run(std::size_t row, std::size_t first, std::size_t last, RowChange* change);
-  void put(std::size_t row, std::size_t x, std::int32_t squared, CellOffset to, RowChange* change);
-
-  DistanceTransform result_;
-  std::vector<RowChange> changes_;
-  std::vector<std::uint8_t> is_free_;
-  std::vector<std::int32_t> to_nearest_;      ///< Rows up to the nearest cell that is not free.
-  std::vector<std::int32_t> to_nearest_was_;  ///< The same for the state before.
-  std::vector<std::int32_t> above_;           ///< One row.
-  std::vector<Parabola> envelope_;            ///< As long as a row; the first ones are in use.
-};
-
 /// Exact Euclidean distance transform of the part of `window` that lies within the grid.
 ///
 /// Source: Felzenszwalb and Huttenlocher, "Distance Transforms of Sampled Functions", 2012, with

@@ -16,7 +16,7 @@ Status validate(const MedialAxisOptions& options) {
 MedialAxis medial_axis(const DistanceTransform& distances,
                        Cell start,
                        const MedialAxisOptions& options) {
-  return AxisUpdate().axis(distances, start, options);
+  return AxisUpdate().first(distances, start, options);
 }
 
 }  // namespace cairn

@@ -12,6 +12,7 @@ struct MedialAxisOptions {
   double min_clearance_m = 0.25;     ///< Free space narrower than twice this is no passage. >= 0
   double coastal_distance_m = 1.0;   ///< Blind branches less deep than this are spurs. >= 0
   double min_basis_angle_rad = 2.1;  ///< Between basis points seen from the axis. (0, pi)
+  friend bool operator==(const MedialAxisOptions&, const MedialAxisOptions&) = default;
 };
 
 [[nodiscard]] Status validate(const MedialAxisOptions& options);

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <iterator>
+
+#include "grid/shift_rows.hpp"
 
 namespace cairn {
 namespace {
@@ -38,16 +39,31 @@ bool is_end(unsigned bits) {
   return count < 2 || (count == 2 && (bits & ~kSides) != 0);
 }
 
-/// Removes what may go of the cells in `order`, pass by pass until none goes. Leaves the cells that
-/// stay in `order`.
-void remove_all(bool keeps_ends, std::vector<std::uint32_t>* order, PaddedCells* set) {
+}  // namespace
+
+bool is_simple(unsigned neighbours) {
+  return kIsSimple[neighbours];
+}
+
+void PaddedCells::shift(Cell moved) {
+  const std::size_t height = cells_.size() / width_;
+  shift_rows<std::uint8_t>(moved, static_cast<int>(width_), static_cast<int>(height), 0, &cells_);
+  std::fill_n(cells_.begin(), width_, std::uint8_t{0});
+  std::fill_n(cells_.end() - static_cast<std::ptrdiff_t>(width_), width_, std::uint8_t{0});
+  for (std::size_t row = 0; row < cells_.size(); row += width_) {
+    cells_[row] = 0;
+    cells_[row + width_ - 1] = 0;
+  }
+}
+
+void thin_lines(std::vector<std::uint32_t>* order, PaddedCells* set) {
   std::size_t before = order->size() + 1;
   while (order->size() < before) {
     before = order->size();
     std::size_t left = 0;
     for (const std::uint32_t at : *order) {
       const unsigned bits = set->neighbours_of(at);
-      if (kIsSimple[bits] && !(keeps_ends && is_end(bits))) {
+      if (kIsSimple[bits] && !is_end(bits)) {
         set->remove(at);
       } else {
         (*order)[left++] = at;
@@ -55,20 +71,6 @@ void remove_all(bool keeps_ends, std::vector<std::uint32_t>* order, PaddedCells*
     }
     order->resize(left);
   }
-}
-
-}  // namespace
-
-void thin(const PaddedCells& kept, std::vector<std::uint32_t>* order, PaddedCells* set) {
-  std::vector<std::uint32_t> candidates;
-  candidates.reserve(order->size());
-  std::copy_if(order->begin(), order->end(), std::back_inserter(candidates),
-               [&](std::uint32_t at) { return !kept.has(at); });
-  remove_all(false, &candidates, set);
-  order->erase(
-      std::remove_if(order->begin(), order->end(), [&](std::uint32_t at) { return !set->has(at); }),
-      order->end());
-  remove_all(true, order, set);
 }
 
 }  // namespace cairn

@@ -54,6 +54,9 @@ class PaddedCells {
   [[nodiscard]] bool has(std::size_t index) const { return cells_[index] != 0; }
   void add(std::size_t index) { cells_[index] = 1; }
   void remove(std::size_t index) { cells_[index] = 0; }
+  void put(std::size_t index, bool has) { cells_[index] = has ? 1 : 0; }
+  /// Moves the set along with the ground; see shift_rows.
+  void shift(Cell moved);
   [[nodiscard]] const std::uint8_t* data() const { return cells_.data(); }
   [[nodiscard]] std::uint8_t* data() { return cells_.data(); }
 
@@ -72,13 +75,12 @@ class PaddedCells {
   std::vector<std::uint8_t> cells_;
 };
 
-/// Thins a set to lines: removes cells one by one in the given order, as often as needed, where
-/// that changes the topology of neither the set (8-connected) nor its complement (4-connected).
-/// Cells of `kept` stay, but where lines of them are two cells wide, one is taken away in the end.
-///
-/// Source: distance-ordered homotopic thinning, Pudney, CVIU 72(3), 1998.
+/// Whether a cell with these neighbours can be taken away without any change of topology.
+[[nodiscard]] bool is_simple(unsigned neighbours);
+
+/// Thins lines that may be two cells wide to one, pass by pass, but not at their ends.
 /// @param order indices of all cells of the set, the first to be removed first; those that stay
 ///     are left in it
-void thin(const PaddedCells& kept, std::vector<std::uint32_t>* order, PaddedCells* set);
+void thin_lines(std::vector<std::uint32_t>* order, PaddedCells* set);
 
 }  // namespace cairn

@@ -18,8 +18,9 @@ LocalView LocalViewer::look_around(const OccupancyGrid& grid,
   MedialAxisOptions axis_options;
   axis_options.min_clearance_m = 0.5 * options.robot_width_m;
   axis_options.coastal_distance_m = options.coastal_distance_m;
-  view.axis = with_corner_nodes(axis_.axis(view.distances, view.robot, axis_options),
-                                view.grid.geometry().cell_m, min_turn_rad);
+  view.axis = with_corner_nodes(
+      axis_.next(view.distances, distances_.changed(), states_.moved(), view.robot, axis_options),
+      view.grid.geometry().cell_m, min_turn_rad);
   view.profiles = edge_profiles(view);
   return view;
 }

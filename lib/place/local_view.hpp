@@ -5,6 +5,7 @@
 
 #include "grid/axis_update.hpp"
 #include "grid/distance_transform.hpp"
+#include "grid/distance_update.hpp"
 #include "grid/medial_axis.hpp"
 #include "grid/state_grid.hpp"
 #include "place/gateway.hpp"
