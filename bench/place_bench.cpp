@@ -36,5 +36,14 @@ void find_places_around_a_crossing(benchmark::State& state) {
 }
 BENCHMARK(find_places_around_a_crossing)->Unit(benchmark::kMillisecond);
 
+/// Where corridors meet: most rays are long there.
+void distinctiveness_at_a_crossing(benchmark::State& state) {
+  const LocalView view = look_around(lattice(40.0), {20.0, 20.0}, PlaceOptions{});
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(island_at(view, {20.0, 20.0}));
+  }
+}
+BENCHMARK(distinctiveness_at_a_crossing)->Unit(benchmark::kMicrosecond);
+
 }  // namespace
 }  // namespace cairn

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "bench/lab/closures_command.hpp"
+#include "bench/lab/islands_command.hpp"
 #include "bench/lab/localmap_command.hpp"
 #include "bench/lab/places_command.hpp"
 #include "bench/lab/rooms_command.hpp"
@@ -37,6 +38,7 @@ int run_lab(const std::vector<std::string>& arguments, std::ostream& out, std::o
     add_localmap_command(app, {out, err}, &status);
     add_places_command(app, {out, err}, &status);
     add_closures_command(app, {out, err}, &status);
+    add_islands_command(app, {out, err}, &status);
     add_rooms_command(app, {out, err}, &status);
     std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
     app.parse(reversed);

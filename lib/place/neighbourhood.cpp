@@ -43,6 +43,18 @@ Vector2d center_of(const LocalView& view, const AxisSite& site) {
   return sum / count;
 }
 
+/// Of the site's nodes the nearest to a point: free space, which their mean need not be.
+Vector2d nearest_node(const LocalView& view, const AxisSite& site, const Vector2d& p) {
+  const auto at = [&](std::size_t n) {
+    return view.grid.geometry().center_of(view.axis.nodes[n].cell);
+  };
+  const auto nearest =
+      std::min_element(site.nodes.begin(), site.nodes.end(), [&](std::size_t a, std::size_t b) {
+        return (at(a) - p).squaredNorm() < (at(b) - p).squaredNorm();
+      });
+  return at(*nearest);
+}
+
 bool is_near_node(const LocalView& view, const AxisSite& site) {
   return std::any_of(site.nodes.begin(), site.nodes.end(), [&](std::size_t n) {
     const AxisNode& node = view.axis.nodes[n];
@@ -93,6 +105,7 @@ PlaceNeighbourhood neighbourhood_of(const LocalView& view,
   place.star = std::move(readings.star);
   place.others = std::move(readings.others);
   place.unsure = bounds.unsure;
+  place.considered = bounds.considered;
   std::vector<Cell> starts;
   for (const std::size_t n : site.nodes) {
     starts.push_back(view.axis.nodes[n].cell);
@@ -106,7 +119,7 @@ PlaceNeighbourhood neighbourhood_of(const LocalView& view,
       flooded_region(view, starts, lines, place.center, options.robot_width_m);
   place.is_complete = bounds.is_decided && region.is_complete;
   place.radius_m = region.radius_m;
-  place.distinctiveness = region.distinctiveness;
+  place.distinctiveness = island_at(view, nearest_node(view, site, place.center)).distinctiveness;
   // With a way still undecided the region has no bound there; only the meeting point counts then.
   place.contains_robot = bounds.is_decided ? region.contains_robot : is_near_node(view, site);
   return place;
@@ -127,22 +140,32 @@ PlaceNeighbourhood transformed(const Pose2& T_to_from, const PlaceNeighbourhood&
   for (UnsureGateway& one : result.unsure) {
     one.gateway = transformed(T_to_from, one.gateway);
   }
+  for (ConsideredOpening& opening : result.considered) {
+    opening.line = transformed(T_to_from, opening.line);
+  }
   return result;
 }
 
 std::vector<PlaceNeighbourhood> find_places(const OccupancyGrid& grid,
                                             const Vector2d& p_grid_robot,
                                             const PlaceOptions& options,
-                                            PlaceMemory memory) {
+                                            PlaceMemory memory,
+                                            IslandMeasure* at_robot) {
   LocalView view = look_around(grid, p_grid_robot, options);
   view.memory = std::move(memory);
   const double cell_m = view.grid.geometry().cell_m;
   view.axis = with_corner_nodes(view.axis, cell_m, kWeakCorner * options.min_corner_rad);
+  if (at_robot != nullptr) {
+    *at_robot = island_at(view, p_grid_robot);
+  }
   const WalledLengths walled(view);
   std::vector<PlaceNeighbourhood> places;
   for (const AxisSite& site : axis_sites(view, options)) {
     PlaceNeighbourhood place = neighbourhood_of(view, walled, site, options);
-    if (is_place(place, options) && place.distinctiveness >= options.min_distinctiveness) {
+    // As long as the star is not complete, not all walls are seen that tell a pose there.
+    const bool is_island =
+        !place.is_complete || place.distinctiveness >= options.min_distinctiveness;
+    if (is_place(place, options) && is_island) {
       places.push_back(std::move(place));
     }
   }

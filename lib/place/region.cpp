@@ -6,8 +6,6 @@
 #include <cstdlib>
 #include <set>
 
-#include "place/island.hpp"
-
 namespace cairn {
 namespace {
 
@@ -48,28 +46,21 @@ class RegionFlood {
 
   [[nodiscard]] PlaceRegion region(const Vector2d& center) const {
     PlaceRegion region;
-    std::set<Cell> walls;
     std::set<Cell> unknown;
-    std::vector<Vector2d> normals;
     bool is_cut = false;
     for (const Cell c : cells_) {
       is_cut = is_cut || at_border(c);
       const Cell basis = view_.distances.basis_point(c);
-      const Vector2d to_basis(basis.x - c.x, basis.y - c.y);
       if (basis == c || !at_coast(c)) {
         continue;
       }
-      const bool is_wall = view_.is_wall_at(basis);
-      if (is_wall && walls.insert(basis).second) {
-        normals.push_back(to_basis.normalized());
-      } else if (!is_wall) {
+      if (!view_.is_wall_at(basis)) {
         unknown.insert(basis);
       }
       const Vector2d from_center = view_.grid.geometry().center_of(basis) - center;
       region.radius_m = std::max(region.radius_m, from_center.norm());
     }
     region.is_complete = !is_cut && longest_stretch_m(unknown) < robot_width_m_;
-    region.distinctiveness = distinctiveness(normals);
     region.contains_robot = holds(view_.robot);
     return region;
   }
