@@ -70,6 +70,15 @@ void axis_and_gateways_of_10_m_followed(benchmark::State& state) {
   }
 }
 BENCHMARK(axis_and_gateways_of_10_m_followed)->Unit(benchmark::kMillisecond);
+/// Where corridors meet: most rays are long there.
+void distinctiveness_at_a_crossing(benchmark::State& state) {
+  LocalViewer viewer;
+  const LocalView view = viewer.look_around(lattice(40.0), {20.0, 20.0}, PlaceOptions{}, 0.6);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(island_at(view, {20.0, 20.0}));
+  }
+}
+BENCHMARK(distinctiveness_at_a_crossing)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace cairn

@@ -24,6 +24,10 @@ class laser_scan_t;
 class map_delta_t;
 class name_request_t;
 class odometry_t;
+class opening_t;
+class perceived_place_t;
+class perception_request_t;
+class perception_t;
 class place_event_t;
 class place_ref_t;
 class place_t;
@@ -40,6 +44,7 @@ class status_t;
 class tile_t;
 class topology_t;
 class trajectory_t;
+class visit_places_t;
 }  // namespace cairn_lcm
 namespace bot_core {
 class planar_lidar_t;
@@ -66,6 +71,11 @@ namespace cairn::wire {
 #define CAIRN_GATEWAY "d d d d i q"
 #define CAIRN_PLACE "q s d d d d[=9] s i i {" CAIRN_GATEWAY "}[8]"
 #define CAIRN_SEGMENT "q i q i i i d d d d d[=9]"
+#define CAIRN_OPENING "d[=4] d d d d d d d d i i s s"
+#define CAIRN_PERCEIVED                            \
+  "q q q q i i d[=3] d[=3] d s i {" CAIRN_OPENING  \
+  "}[10] i i[12] i[12] i f[15] f[15] i i[18] d d " \
+  "d i i i b[25]"
 #define CAIRN_TILE "i i i b[2]"
 #define CAIRN_SIGNATURE(type, text) \
   template <>                       \
@@ -89,6 +99,10 @@ CAIRN_SIGNATURE(cairn_lcm::laser_scan_t, "q d d d d i f[5]");
 CAIRN_SIGNATURE(cairn_lcm::map_delta_t, "q q q i q q d i i i i i b[11]");
 CAIRN_SIGNATURE(cairn_lcm::name_request_t, CAIRN_RPC_HEADER "q s");
 CAIRN_SIGNATURE(cairn_lcm::odometry_t, "q d d d");
+CAIRN_SIGNATURE(cairn_lcm::opening_t, CAIRN_OPENING);
+CAIRN_SIGNATURE(cairn_lcm::perceived_place_t, CAIRN_PERCEIVED);
+CAIRN_SIGNATURE(cairn_lcm::perception_request_t, CAIRN_RPC_HEADER "q");
+CAIRN_SIGNATURE(cairn_lcm::perception_t, CAIRN_RESULT "q {" CAIRN_PERCEIVED "}");
 CAIRN_SIGNATURE(cairn_lcm::place_event_t, "q q q i s q q s");
 CAIRN_SIGNATURE(cairn_lcm::place_ref_t, CAIRN_PLACE_REF);
 CAIRN_SIGNATURE(cairn_lcm::place_t, CAIRN_PLACE);
@@ -103,12 +117,13 @@ CAIRN_SIGNATURE(cairn_lcm::snapshot_request_t, CAIRN_RPC_HEADER "i q q i i[4]");
 CAIRN_SIGNATURE(cairn_lcm::sonar_ring_t, "q i f[1] f[1] f[1] f[1]");
 CAIRN_SIGNATURE(cairn_lcm::status_t,
                 "q q i s i s s  q q q q  i i i q d i i q s  "
-                "i s s s d d d q q q i f f s q q q q q q q q q s  "
+                "i s s s d d d d q q q i f f s q q q q q q q q q s  "
                 "q q q q q q q q q q q q i i f f f");
 CAIRN_SIGNATURE(cairn_lcm::tile_t, CAIRN_TILE);
 CAIRN_SIGNATURE(cairn_lcm::topology_t,
                 "q q q q q d q i i {" CAIRN_PLACE "}[8] i {" CAIRN_SEGMENT "}[10]");
 CAIRN_SIGNATURE(cairn_lcm::trajectory_t, "q q q i q[3] d[3] d[3] d[3]");
+CAIRN_SIGNATURE(cairn_lcm::visit_places_t, "q q q q i q[4]");
 
 CAIRN_SIGNATURE(bot_core::planar_lidar_t, "q i f[1] i f[3] f f");
 CAIRN_SIGNATURE(bot_core::pose_t, "q d[=3] d[=3] d[=4] d[=3] d[=3]");
@@ -120,6 +135,8 @@ CAIRN_SIGNATURE(vulcan_lcm::odometry_t, "q i d d d d d");
 
 #undef CAIRN_SIGNATURE
 #undef CAIRN_TILE
+#undef CAIRN_PERCEIVED
+#undef CAIRN_OPENING
 #undef CAIRN_SEGMENT
 #undef CAIRN_PLACE
 #undef CAIRN_GATEWAY

@@ -8,12 +8,10 @@
 
 #include "bench/lab/closure_truth.hpp"
 #include "bench/lab/localmap_run.hpp"
+#include "bench/lab/log_feed.hpp"
 #include "clients/common/failure.hpp"
-#include "clients/common/progress.hpp"
 #include "clients/common/text.hpp"
 #include "service/mapping_service.hpp"
-#include "transport/inlets.hpp"
-#include "wire/log_reader.hpp"
 
 namespace cairn::lab {
 namespace {
@@ -45,8 +43,7 @@ std::optional<Vector2d> place_by_reference(const Experience& experience,
                                            const Visit& visit,
                                            const std::vector<ReferencePose>& reference) {
   const LocalFix& fix = experience.scans()[visit.anchor_scan].fix;
-  const std::optional<Pose2> T_reference_robot =
-      reference_at(reference, static_cast<double>(utime_of(fix.time)) * 1e-6);
+  const std::optional<Pose2> T_reference_robot = reference_at(reference, seconds_of(fix.time));
   if (!T_reference_robot) {
     return std::nullopt;
   }
@@ -66,28 +63,19 @@ std::string decision_at(const HypothesisTree& tree, VisitId visit) {
 
 MappedLog map_log(const ClosuresRequest& request, const std::vector<ReferencePose>& reference) {
   const DaemonOptions options = options_from_file(request.config_file);
-  wire::Expected<wire::LogReader> reader = wire::LogReader::open(request.log);
-  if (!reader) {
-    throw Failure(ExitCode::kBadData, reader.error());
-  }
   MappingService service(options.service);
-  Inlets inlets(to_inlet_options(options),
-                {[&](LaserScan scan) { static_cast<void>(service.absorb(std::move(scan))); },
-                 [&](const OdometrySample& sample) { static_cast<void>(service.absorb(sample)); },
-                 [](const SonarRing&) {}});
-  clients::Progress progress(request.log);
-  while (const std::optional<wire::LogMessage> message = reader->next()) {
-    inlets.dispatch(message->channel, message->bytes.data(), message->bytes.size());
-    progress.show(reader->bytes_read(), reader->bytes_total());
-  }
+  MappedLog mapped;
+  mapped.damage =
+      feed_log(request.log, options,
+               {[&](LaserScan scan) { static_cast<void>(service.absorb(std::move(scan))); },
+                [&](const OdometrySample& sample) { static_cast<void>(service.absorb(sample)); },
+                {},
+                {}});
   static_cast<void>(service.finish());
   if (service.experience().scans().empty()) {
-    throw Failure(ExitCode::kBadData,
-                  request.log + ": no scan in it" +
-                      (reader->damage() ? "; " + *reader->damage() : std::string()));
+    refuse_without_scans(request.log, mapped.damage);
   }
   const std::shared_ptr<const MapState> state = service.state();
-  MappedLog mapped;
   const std::vector<Visit>& visits = service.experience().visits();
   for (std::size_t v = 0; v < visits.size() && v < state->place_of_visit.size(); ++v) {
     mapped.visits.push_back(
@@ -98,7 +86,6 @@ MappedLog map_log(const ClosuresRequest& request, const std::vector<ReferencePos
   }
   mapped.guarantee_given_up_at = state->guarantee_given_up_at;
   mapped.probability = state->probability;
-  mapped.damage = reader->damage().value_or("");
   return mapped;
 }
 

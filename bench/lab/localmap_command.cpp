@@ -15,6 +15,8 @@
 #include "bench/lab/localmap_picture.hpp"
 #include "bench/lab/localmap_relations.hpp"
 #include "bench/lab/localmap_run.hpp"
+#include "bench/lab/place_pictures.hpp"
+#include "bench/lab/places_run.hpp"
 #include "bench/lab/resources.hpp"
 #include "bench/lab/text.hpp"
 #include "clients/common/failure.hpp"
@@ -121,7 +123,7 @@ std::string trajectory_of(const LocalmapRun& run) {
 
 int track(const LocalmapRequest& request, const Streams& streams) {
   check_outputs({request.log, request.config_file, request.relations_file},
-                {request.trajectory_file, request.png_file});
+                {request.trajectory_file, request.png_file, request.places_folder});
   LocalmapSetup setup{options_from_file(request.config_file)};
   if (!request.matcher.empty()) {
     const std::optional<MatcherKind> kind = matcher_kind_of(request.matcher);
@@ -136,6 +138,9 @@ int track(const LocalmapRequest& request, const Streams& streams) {
   std::vector<Relation> relations;
   if (!request.relations_file.empty()) {
     relations = read_relations(request.relations_file);
+  }
+  if (!request.places_folder.empty()) {
+    clients::make_folder(request.places_folder);  // Rather now than after a long run.
   }
   const LocalmapRun run = run_localmap(request.log, setup);
   std::optional<RelationReport> report;
@@ -152,6 +157,11 @@ int track(const LocalmapRequest& request, const Streams& streams) {
   }
   if (!request.png_file.empty()) {
     draw_localmap(run, request.png_file);
+  }
+  if (!request.places_folder.empty()) {
+    const DaemonOptions& options = setup.options;
+    draw_places(run_places(request.log, options).visits, options.service.place,
+                request.places_folder);
   }
   if (!run.damage.empty()) {
     throw Failure(ExitCode::kBadData, request.log + ": " + run.damage);
@@ -181,6 +191,10 @@ void add_localmap_command(CLI::App& app, const Streams& streams, int* status) {
   file("--relations", &request->relations_file, "True relations of poses: report the error");
   file("--png", &request->png_file, "Draw what was seen, and the way");
   file("--trajectory", &request->trajectory_file, "The poses, as lines t x y theta");
+  command
+      ->add_option("--places", request->places_folder,
+                   "Draw each visit to a place into this folder: what was seen, and why")
+      ->type_name("DIR");
   command->add_flag("--json", request->as_json, "Print JSON");
   command->callback([request, streams, status] { *status = track(*request, streams); });
 }

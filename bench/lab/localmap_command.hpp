@@ -16,6 +16,7 @@ struct LocalmapRequest {
   std::string relations_file;
   std::string png_file;
   std::string trajectory_file;
+  std::string places_folder;
   bool as_json = false;
 };
 

@@ -8,24 +8,18 @@
 #include <string>
 #include <utility>
 
+#include "bench/lab/log_feed.hpp"
 #include "bench/lab/resources.hpp"
 #include "clients/common/failure.hpp"
-#include "clients/common/progress.hpp"
 #include "layout/trajectory.hpp"
 #include "lpm/local_mapper.hpp"
 #include "service/between_scans.hpp"
-#include "transport/inlets.hpp"
-#include "wire/log_reader.hpp"
 
 namespace cairn::lab {
 namespace {
 
 using clients::ExitCode;
 using clients::Failure;
-
-double seconds_of(TimePoint time) {
-  return static_cast<double>(utime_of(time)) * 1e-6;
-}
 
 /// The mean of poses, as many as there are of scans if there are any.
 TrackedPose mean_pose(const std::vector<TrackedPose>& poses, std::size_t begin, std::size_t end) {
@@ -224,31 +218,18 @@ DaemonOptions options_from_file(const std::string& config_file) {
 }
 
 LocalmapRun run_localmap(const std::string& log, const LocalmapSetup& setup) {
-  wire::Expected<wire::LogReader> reader = wire::LogReader::open(log);
-  if (!reader) {
-    throw Failure(ExitCode::kBadData, reader.error());
-  }
   LocalmapRun run;
   Runner runner(setup, &run);
-  Inlets inlets(
-      to_inlet_options(setup.options),
-      {[&](LaserScan scan) { runner.take(std::move(scan)); },
-       [&](const OdometrySample& sample) { runner.take(sample); }, [](const SonarRing&) {}});
-  clients::Progress progress(log);
-  while (const std::optional<wire::LogMessage> message = reader->next()) {
-    runner.start_clock();
-    inlets.dispatch(message->channel, message->bytes.data(), message->bytes.size());
-    runner.stop_clock();
-    progress.show(reader->bytes_read(), reader->bytes_total());
-  }
+  run.damage = feed_log(log, setup.options,
+                        {[&](LaserScan scan) { runner.take(std::move(scan)); },
+                         [&](const OdometrySample& sample) { runner.take(sample); },
+                         [&] { runner.start_clock(); }, [&] { runner.stop_clock(); }});
   runner.start_clock();
   runner.finish();
   if (run.track.empty()) {
-    throw Failure(ExitCode::kBadData,
-                  log + ": no scan in it" + (reader->damage() ? "; " + *reader->damage() : ""));
+    refuse_without_scans(log, run.damage);
   }
   run.poses = one_pose_per_stamp(std::move(run.poses));
-  run.damage = reader->damage().value_or("");
   return run;
 }
 

@@ -1,23 +1,17 @@
 #include "bench/lab/places_command.hpp"
 
 #include <memory>
-#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "bench/lab/localmap_run.hpp"
-#include "bench/lab/place_picture.hpp"
-#include "bench/lab/resources.hpp"
+#include "bench/lab/log_feed.hpp"
+#include "bench/lab/place_pictures.hpp"
+#include "bench/lab/places_run.hpp"
 #include "bench/lab/text.hpp"
 #include "clients/common/failure.hpp"
-#include "clients/common/progress.hpp"
 #include "clients/common/text.hpp"
-#include "lpm/local_mapper.hpp"
-#include "place/place_detector.hpp"
 #include "star/small_scale_star.hpp"
-#include "transport/inlets.hpp"
-#include "wire/log_reader.hpp"
 
 namespace cairn::lab {
 namespace {
@@ -34,94 +28,22 @@ struct PlacesRequest {
   bool as_json = false;
 };
 
-struct PlacesRun {
-  std::vector<PlaceVisit> visits;
-  PlaceDetectorReport report;
-  StageTimes perception;
-  std::string damage;
-};
-
-/// The local layer and the place detector.
-class Detecting {
- public:
-  Detecting(const DaemonOptions& options, PlacesRun* run)
-      : run_(run),
-        joiner_(options.service.joiner),
-        mapper_(options.service.lpm),
-        detector_(options.service.place) {}
-
-  void take(LaserScan scan) {
-    joiner_.add(std::move(scan));
-    perceive();
-  }
-  void take(const OdometrySample& sample) {
-    joiner_.add(sample);
-    perceive();
-  }
-  void finish() {
-    joiner_.flush();
-    perceive();
-    for (PlaceVisit& visit : detector_.finish()) {
-      run_->visits.push_back(std::move(visit));
-    }
-    run_->report = detector_.report();
-  }
-
- private:
-  void perceive() {
-    while (const std::optional<JoinedScan> joined = joiner_.next()) {
-      const LocalFix fix = mapper_.absorb(*joined);
-      const double start_s = cpu_time_s();
-      for (PlaceEvent& event : detector_.observe(fix.time, fix.T_lpm_robot, mapper_.grid())) {
-        if (event.visit) {
-          run_->visits.push_back(*std::move(event.visit));
-        }
-      }
-      run_->perception.times_ms.push_back(1e3 * (cpu_time_s() - start_s));
-    }
-  }
-
-  PlacesRun* run_;
-  ScanJoiner joiner_;
-  LocalMapper mapper_;
-  PlaceDetector detector_;
-};
-
-PlacesRun run_places(const std::string& log, const DaemonOptions& options) {
-  wire::Expected<wire::LogReader> reader = wire::LogReader::open(log);
-  if (!reader) {
-    throw Failure(ExitCode::kBadData, reader.error());
-  }
-  PlacesRun run;
-  Detecting detecting(options, &run);
-  Inlets inlets(
-      to_inlet_options(options),
-      {[&](LaserScan scan) { detecting.take(std::move(scan)); },
-       [&](const OdometrySample& sample) { detecting.take(sample); }, [](const SonarRing&) {}});
-  clients::Progress progress(log);
-  while (const std::optional<wire::LogMessage> message = reader->next()) {
-    inlets.dispatch(message->channel, message->bytes.data(), message->bytes.size());
-    progress.show(reader->bytes_read(), reader->bytes_total());
-  }
-  detecting.finish();
-  if (run.perception.times_ms.empty()) {
-    throw Failure(ExitCode::kBadData,
-                  log + ": no scan in it" + (reader->damage() ? "; " + *reader->damage() : ""));
-  }
-  run.damage = reader->damage().value_or("");
-  return run;
-}
-
-double seconds_of(TimePoint time) {
-  return static_cast<double>(utime_of(time)) * 1e-6;
-}
-
 OrderedJson json_of(const Gateway& gateway) {
   return {{"x_m", gateway.middle.x()},
           {"y_m", gateway.middle.y()},
           {"width_m", gateway.width_m},
           {"outward_bearing_rad", gateway.outward_bearing_rad},
           {"seen_beyond_m", gateway.seen_beyond_m}};
+}
+
+OrderedJson json_of(const ConsideredOpening& opening) {
+  OrderedJson json = json_of(opening.line);
+  json["state"] = to_string(opening.state);
+  json["reason"] = why(opening);
+  json["needed_m"] = opening.needed_m;
+  json["wall_share"] = wall_share(opening);
+  json["log_odds"] = opening.log_odds;
+  return json;
 }
 
 OrderedJson json_of(const PlaceVisit& visit) {
@@ -133,9 +55,13 @@ OrderedJson json_of(const PlaceVisit& visit) {
                       {"departure_gateway", visit.departure_gateway},
                       {"distinctiveness", visit.neighbourhood.distinctiveness},
                       {"star", small_scale_text(visit.neighbourhood.star, 0)},
-                      {"gateways", OrderedJson::array()}};
+                      {"gateways", OrderedJson::array()},
+                      {"considered", OrderedJson::array()}};
   for (const Gateway& gateway : visit.neighbourhood.gateways) {
     json["gateways"].push_back(json_of(gateway));
+  }
+  for (const ConsideredOpening& opening : visit.neighbourhood.considered) {
+    json["considered"].push_back(json_of(opening));
   }
   return json;
 }
@@ -149,9 +75,16 @@ OrderedJson json_of(const PlacesRun& run) {
                        {{"mean", run.perception.mean_ms()},
                         {"p99", run.perception.quantile_ms(0.99)},
                         {"max", run.perception.quantile_ms(1.0)}}},
-                      {"visits", OrderedJson::array()}};
+                      {"visits", OrderedJson::array()},
+                      {"poses", OrderedJson::array()}};
   for (const PlaceVisit& visit : run.visits) {
     json["visits"].push_back(json_of(visit));
+  }
+  for (const LookedPose& pose : run.poses) {
+    json["poses"].push_back({{"time_s", pose.time_s},
+                             {"x_m", pose.T_lpm_robot.x()},
+                             {"y_m", pose.T_lpm_robot.y()},
+                             {"distinctiveness", pose.island.distinctiveness}});
   }
   return json;
 }
@@ -188,7 +121,7 @@ int perceive(const PlacesRequest& request, const Streams& streams) {
     print(run, streams.out);
   }
   if (!request.png_file.empty()) {
-    draw_places(run.visits, options.service.place, request.png_file);
+    draw_place_sheet(run.visits, options.service.place, request.png_file);
   }
   if (!run.damage.empty()) {
     throw Failure(ExitCode::kBadData, request.log + ": " + run.damage);

@@ -9,6 +9,7 @@
 
 #include "bench/lab/buildings_command.hpp"
 #include "bench/lab/closures_command.hpp"
+#include "bench/lab/islands_command.hpp"
 #include "bench/lab/localmap_command.hpp"
 #include "bench/lab/places_command.hpp"
 #include "bench/lab/recognition_command.hpp"
@@ -40,6 +41,7 @@ int run_lab(const std::vector<std::string>& arguments, std::ostream& out, std::o
     add_places_command(app, {out, err}, &status);
     add_closures_command(app, {out, err}, &status);
     add_buildings_command(app, {out, err}, &status);
+    add_islands_command(app, {out, err}, &status);
     add_rooms_command(app, {out, err}, &status);
     add_recognition_command(app, {out, err}, &status);
     std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include <cairn_lcm/perceived_place_t.hpp>
 #include <cairn_lcm/topology_t.hpp>
 #include <cairn_lcm/trajectory_t.hpp>
 
@@ -16,6 +17,8 @@ struct MapLayers {
   std::optional<Raster> grid;
   std::optional<cairn_lcm::topology_t> topology;
   std::optional<cairn_lcm::trajectory_t> trajectory;
+  /// What was seen of places, each at the visit that the map shows; drawn over the topology.
+  std::vector<cairn_lcm::perceived_place_t> perceived;
 };
 
 /// The picture of a map: walls, paths in colours, places with their ids, gateways as bars (dashed
@@ -23,6 +26,17 @@ struct MapLayers {
 /// key.
 /// @param longest_side_pixels of the map itself, [64, 16384]
 [[nodiscard]] Canvas draw_map(const MapLayers& layers, int longest_side_pixels);
+
+class Viewport;
+
+/// Draws what was seen of a place where the map has it: the medial axis, the path fragments as
+/// curves, openings that are no gateways of the map, and the numbers and widths of those that are.
+/// Nothing of a visit whose frame is not that of the place. Throws Failure(kBadData) for a message
+/// whose numbers do not fit together.
+void draw_perceived(Canvas& canvas,
+                    const Viewport& view,
+                    const cairn_lcm::place_t& place,
+                    const cairn_lcm::perceived_place_t& perceived);
 
 /// Part of the global frame that is shown, and its scale.
 class Viewport {

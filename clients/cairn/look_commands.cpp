@@ -16,11 +16,10 @@ struct DocumentName {
   std::int32_t what;
   const char* name;
 };
-constexpr DocumentName kDocumentNames[] = {{Request::GLOBAL_MAP, "global_map"},
-                                           {Request::TOPOLOGY, "topology"},
-                                           {Request::HYPOTHESES, "hypotheses"},
-                                           {Request::TRAJECTORY, "trajectory"},
-                                           {Request::LPM, "local_map"}};
+constexpr DocumentName kDocumentNames[] = {
+    {Request::GLOBAL_MAP, "global_map"}, {Request::TOPOLOGY, "topology"},
+    {Request::HYPOTHESES, "hypotheses"}, {Request::TRAJECTORY, "trajectory"},
+    {Request::LPM, "local_map"},         {Request::VISITS, "visits"}};
 constexpr const char* kJournalTables[] = {"visit", "scan", "assertion"};
 
 // A map file just begun holds no documents yet; that is no damage.
@@ -135,22 +134,6 @@ void add_status_command(CLI::App& app, const Streams& streams) {
       app.add_subcommand("status", "How the daemon fares, or what a map file holds");
   const auto options = add_source_options(*command);
   command->callback([options, streams] { show_status(*options, streams); });
-}
-
-void add_places_command(CLI::App& app, const Streams& streams) {
-  CLI::App* command = app.add_subcommand(
-      "places",
-      "The places of the best map; gateways as number>place, number? if pending, or number!place "
-      "where the robot came to a place against the map");
-  const auto options = add_source_options(*command);
-  command->callback([options, streams] {
-    const cairn_lcm::topology_t topology = open_source(*options)->topology();
-    if (options->as_json) {
-      streams.out << dumped(to_json(topology)) << '\n';
-    } else {
-      print_places(streams.out, topology);
-    }
-  });
 }
 
 void add_hypotheses_command(CLI::App& app, const Streams& streams) {

@@ -2,6 +2,7 @@
 
 #include "clients/cairn/commands.hpp"
 #include "clients/cairn/drawing.hpp"
+#include "clients/cairn/perceived_visits.hpp"
 #include "clients/cairn/topology_files.hpp"
 #include "clients/common/failure.hpp"
 #include "clients/common/text.hpp"
@@ -15,6 +16,7 @@ struct MapOptions {
   std::string pgm;
   std::string svg;
   bool with_trajectory = false;
+  bool with_places = false;
   int pixels = 1600;
 };
 
@@ -37,6 +39,9 @@ void write_map(const MapOptions& options, const Streams& streams) {
   if (options.with_trajectory && options.png.empty()) {
     throw Failure(ExitCode::kUsage, "map: --trajectory is drawn into a picture: add --png FILE");
   }
+  if (options.with_places && options.png.empty()) {
+    throw Failure(ExitCode::kUsage, "map: --places are drawn into a picture: add --png FILE");
+  }
   const std::unique_ptr<MapSource> source = open_source(options.source);
   MapLayers layers;
   if (!options.png.empty() || !options.pgm.empty()) {
@@ -47,6 +52,9 @@ void write_map(const MapOptions& options, const Streams& streams) {
   }
   if (options.with_trajectory) {
     layers.trajectory = source->trajectory();
+  }
+  if (options.with_places) {
+    layers.perceived = shown_visits(*source, *layers.topology);
   }
   if (!options.png.empty()) {
     write_png(draw_map(layers, options.pixels), options.png);
@@ -102,6 +110,8 @@ void add_map_command(CLI::App& app, const Streams& streams) {
   command->add_option("--svg", options->svg, "Drawing of the topological map");
   command->add_flag("--trajectory", options->with_trajectory,
                     "Show the robot's way in the picture");
+  command->add_flag("--places", options->with_places,
+                    "Show what was seen of each place: its axis, its paths, all openings");
   command->add_option("--pixels", options->pixels, "Longest side of the picture")
       ->capture_default_str()
       ->check(CLI::Range(64, 16384));

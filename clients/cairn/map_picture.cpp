@@ -228,6 +228,11 @@ Canvas draw_map(const MapLayers& layers, int longest_side_pixels) {
     draw_trajectory(canvas, view, *layers.trajectory);
   }
   if (layers.topology) {
+    for (const cairn_lcm::perceived_place_t& perceived : layers.perceived) {
+      if (const auto* const place = find_place(*layers.topology, perceived.place_id)) {
+        draw_perceived(canvas, view, *place, perceived);
+      }
+    }
     draw_topology(canvas, view, *layers.topology);
   }
   draw_footer(canvas, view, layers);

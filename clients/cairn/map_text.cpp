@@ -81,6 +81,8 @@ void print_localisation(std::ostream& out, const cairn_lcm::status_t& status) {
            count_of(status.times_lost, "times lost, ") +
            count_of(status.local_map_restarts, "new local maps, ") +
            count_of(status.scans_not_mapped, "scans not mapped"));
+  line(out, "distinctive",
+       fixed(status.distinctiveness_share, 2) + " of 1: how well walls tell the pose here");
   line(out, "faults", faults_text(status));
   if (!status.relocalised.empty()) {
     line(out, "relocalised", printable(status.relocalised));

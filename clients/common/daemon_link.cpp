@@ -41,7 +41,8 @@ struct DaemonLink::Inbox {
   std::optional<result_t> result;
   std::tuple<std::optional<cairn_lcm::plan_t>,
              std::optional<cairn_lcm::assertion_report_t>,
-             std::optional<cairn_lcm::explanation_t>>
+             std::optional<cairn_lcm::explanation_t>,
+             std::optional<cairn_lcm::perception_t>>
       answers;
   wire::DocumentFetch* fetch = nullptr;
 
@@ -132,6 +133,7 @@ void DaemonLink::subscribe() {
   inbox->listen<cairn_lcm::plan_t>(*bus_, "CAIRN_PLAN");
   inbox->listen<cairn_lcm::assertion_report_t>(*bus_, "CAIRN_ASSERTION");
   inbox->listen<cairn_lcm::explanation_t>(*bus_, "CAIRN_EXPLANATION");
+  inbox->listen<cairn_lcm::perception_t>(*bus_, "CAIRN_PERCEPTION");
   clients::subscribe<cairn_lcm::snapshot_chunk_t>(
       *bus_, "CAIRN_SNAPSHOT", [inbox](const cairn_lcm::snapshot_chunk_t& chunk) {
         if (inbox->fetch != nullptr) {
@@ -291,6 +293,24 @@ cairn_lcm::assertion_report_t DaemonLink::say(cairn_lcm::assert_request_t reques
 
 cairn_lcm::explanation_t DaemonLink::explain(cairn_lcm::explain_request_t request) {
   return ask<cairn_lcm::explanation_t>("CAIRN_REQUEST_EXPLAIN", request);
+}
+
+cairn_lcm::visit_places_t DaemonLink::visit_places() {
+  return document<cairn_lcm::visit_places_t>(Request::VISITS, "list of visits");
+}
+
+cairn_lcm::perceived_place_t DaemonLink::perceived_place(std::int64_t visit) {
+  cairn_lcm::perception_request_t request{};
+  request.visit = visit;
+  cairn_lcm::perception_t answer =
+      ask<cairn_lcm::perception_t>("CAIRN_REQUEST_PERCEPTION", request);
+  if (answer.result.code != result_t::OK) {
+    const bool is_missing = answer.result.code == result_t::NOT_FOUND;
+    throw Failure(is_missing ? ExitCode::kBadData : ExitCode::kNoService,
+                  "the daemon does not show visit " + std::to_string(visit) + ": " +
+                      printable(answer.result.reason));
+  }
+  return std::move(answer.perceived);
 }
 
 }  // namespace cairn::clients

@@ -11,6 +11,8 @@
 #include <cairn_lcm/explain_request_t.hpp>
 #include <cairn_lcm/explanation_t.hpp>
 #include <cairn_lcm/name_request_t.hpp>
+#include <cairn_lcm/perception_request_t.hpp>
+#include <cairn_lcm/perception_t.hpp>
 #include <cairn_lcm/plan_request_t.hpp>
 #include <cairn_lcm/plan_t.hpp>
 #include <cairn_lcm/status_t.hpp>
@@ -47,6 +49,9 @@ class DaemonLink final : public MapSource {
   [[nodiscard]] cairn_lcm::grid_map_t global_map() override;
   [[nodiscard]] cairn_lcm::trajectory_t trajectory() override;
   [[nodiscard]] cairn_lcm::assertions_t assertions() override;
+
+  [[nodiscard]] cairn_lcm::visit_places_t visit_places() override;
+  [[nodiscard]] cairn_lcm::perceived_place_t perceived_place(std::int64_t visit) override;
 
   /// The next heartbeat.
   [[nodiscard]] cairn_lcm::status_t status();

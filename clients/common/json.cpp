@@ -90,6 +90,7 @@ Json localisation_of(const cairn_lcm::status_t& status) {
           {"error_min_m", number(status.localisation_error_min_m)},
           {"error_max_m", number(status.localisation_error_max_m)},
           {"times_lost", status.times_lost},
+          {"distinctiveness_share", number(status.distinctiveness_share)},
           {"local_map_restarts", status.local_map_restarts},
           {"scans_not_mapped", status.scans_not_mapped},
           {"is_using_odometry", status.is_using_odometry != 0},

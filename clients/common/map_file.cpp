@@ -53,6 +53,7 @@ const char* name_of(std::int32_t what) {
          : what == Request::TOPOLOGY   ? "topological map"
          : what == Request::HYPOTHESES ? "list of hypotheses"
          : what == Request::TRAJECTORY ? "trajectory"
+         : what == Request::VISITS     ? "list of visits"
                                        : "document of this kind";
 }
 
@@ -71,6 +72,13 @@ Statement prepare(sqlite3* database, const std::filesystem::path& path, const st
     throw unreadable(path, std::string("cannot be read: ") + sqlite3_errmsg(database));
   }
   return Statement(statement);
+}
+
+std::vector<std::uint8_t> blob(sqlite3_stmt* row, int column) {
+  const auto* bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(row, column));
+  const int size = sqlite3_column_bytes(row, column);
+  return bytes == nullptr ? std::vector<std::uint8_t>()
+                          : std::vector<std::uint8_t>(bytes, bytes + size);
 }
 
 bool next_row(sqlite3* database, const std::filesystem::path& path, sqlite3_stmt* statement) {
@@ -207,10 +215,7 @@ std::vector<std::uint8_t> MapFile::document_bytes(std::int32_t what) const {
   if (!next_row(database_.get(), path_, row.get())) {
     throw unreadable(path_, std::string("holds no ") + name_of(what));
   }
-  const auto* bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(row.get(), 0));
-  const int size = sqlite3_column_bytes(row.get(), 0);
-  return bytes == nullptr ? std::vector<std::uint8_t>()
-                          : std::vector<std::uint8_t>(bytes, bytes + size);
+  return blob(row.get(), 0);
 }
 
 template <typename Message>
@@ -236,6 +241,29 @@ cairn_lcm::grid_map_t MapFile::global_map() {
 
 cairn_lcm::trajectory_t MapFile::trajectory() {
   return document<cairn_lcm::trajectory_t>(cairn_lcm::snapshot_request_t::TRAJECTORY);
+}
+
+cairn_lcm::visit_places_t MapFile::visit_places() {
+  return document<cairn_lcm::visit_places_t>(cairn_lcm::snapshot_request_t::VISITS);
+}
+
+cairn_lcm::perceived_place_t MapFile::perceived_place(std::int64_t visit) {
+  const std::string of_visit = "what was seen at visit " + std::to_string(visit);
+  if (row_count("perception") < 0) {
+    throw unreadable(path_, "does not hold " + of_visit + ": it was made by an earlier cairnd");
+  }
+  const Statement row =
+      prepare(database_.get(), path_, "SELECT bytes FROM perception WHERE visit = ?");
+  sqlite3_bind_int64(row.get(), 1, visit);
+  if (!next_row(database_.get(), path_, row.get())) {
+    throw unreadable(path_, "does not hold " + of_visit);
+  }
+  wire::Expected<cairn_lcm::perceived_place_t> perceived =
+      wire::from_document<cairn_lcm::perceived_place_t>(blob(row.get(), 0));
+  if (!perceived) {
+    throw unreadable(path_, of_visit + ": " + perceived.error());
+  }
+  return *std::move(perceived);
 }
 
 }  // namespace cairn::clients

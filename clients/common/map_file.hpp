@@ -33,6 +33,9 @@ class MapFile final : public MapSource {
   /// From the journal, so none is missing that was acknowledged. What each did is not in the file.
   [[nodiscard]] cairn_lcm::assertions_t assertions() override;
 
+  [[nodiscard]] cairn_lcm::visit_places_t visit_places() override;
+  [[nodiscard]] cairn_lcm::perceived_place_t perceived_place(std::int64_t visit) override;
+
   /// The table `meta`.
   [[nodiscard]] const std::map<std::string, std::string>& meta() const { return meta_; }
   /// Which documents there are, by `what` of snapshot_request_t.

@@ -3,8 +3,10 @@
 #include <cairn_lcm/assertions_t.hpp>
 #include <cairn_lcm/grid_map_t.hpp>
 #include <cairn_lcm/hypotheses_t.hpp>
+#include <cairn_lcm/perceived_place_t.hpp>
 #include <cairn_lcm/topology_t.hpp>
 #include <cairn_lcm/trajectory_t.hpp>
+#include <cairn_lcm/visit_places_t.hpp>
 
 namespace cairn::clients {
 
@@ -25,6 +27,9 @@ class MapSource {
   [[nodiscard]] virtual cairn_lcm::grid_map_t global_map() = 0;
   [[nodiscard]] virtual cairn_lcm::trajectory_t trajectory() = 0;
   [[nodiscard]] virtual cairn_lcm::assertions_t assertions() = 0;
+  [[nodiscard]] virtual cairn_lcm::visit_places_t visit_places() = 0;
+  /// What was seen of a place at a visit.
+  [[nodiscard]] virtual cairn_lcm::perceived_place_t perceived_place(std::int64_t visit) = 0;
 };
 
 }  // namespace cairn::clients

@@ -153,6 +153,18 @@ void Table::print(std::ostream& out) const {
   }
 }
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(folder, ignored)) {
+    const bool is_taken = std::filesystem::exists(folder, ignored);
+    throw Failure(ExitCode::kCannotCreate,
+                  folder.string() + (is_taken ? " is a file, and no folder to write into"
+                                              : " cannot be made: " + error.message()));
+  }
+}
+
 void write_file(const std::filesystem::path& path, const std::string& content) {
   const auto refuse = [&](const char* what) {
     throw Failure(ExitCode::kCannotCreate, "cannot " + std::string(what) + " " + path.string());

@@ -39,6 +39,9 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
+/// Makes a folder to write into, where there is none. Throws Failure(kCannotCreate).
+void make_folder(const std::filesystem::path& folder);
+
 /// Writes a file as a whole: into a temporary file beside it, then renamed. Throws
 /// Failure(kCannotCreate).
 void write_file(const std::filesystem::path& path, const std::string& content);

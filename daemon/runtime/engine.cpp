@@ -5,6 +5,9 @@
 #include <utility>
 
 #include "base/check.hpp"
+#include "transport/place_messages.hpp"
+#include "wire/document.hpp"
+#include "wire/signatures.hpp"
 
 namespace cairn {
 namespace {
@@ -22,7 +25,8 @@ bool is_text_up_to_64_bytes(const std::string& text) {
 }  // namespace
 
 Engine::Engine(const ServiceOptions& options, MapFile map_file)
-    : map_file_(std::move(map_file)),
+    : place_options_(options.place),
+      map_file_(std::move(map_file)),
       service_(std::make_unique<MappingService>(
           options, [this](Stage stage) { stage_clock_.enter(stage); })) {}
 
@@ -190,6 +194,41 @@ void Engine::journal(const Updates& updates) {
   bound_waiting();
 }
 
+Status Engine::append(const PerceivedScan& scan) {
+  return map_file_.append(scan);
+}
+
+Status Engine::append(const Visit& visit) {
+  const Status status = map_file_.append(visit);
+  if (!status) {
+    return status;
+  }
+  const std::int64_t number = map_file_.visit_count() - 1;
+  return map_file_.append_perception(
+      number, wire::to_document(to_perceived_place(visit.perceived, number, place_options_)));
+}
+
+Result<cairn_lcm::perceived_place_t> Engine::perception(std::int64_t visit) {
+  const std::vector<Visit>& visits = service_->experience().visits();
+  if (visit < 0 || visit >= static_cast<std::int64_t>(visits.size())) {
+    return Error{ErrorCode::kNotFound, "there is no visit " + std::to_string(visit) + "; " +
+                                           std::to_string(visits.size()) + " so far"};
+  }
+  const Result<std::vector<std::uint8_t>> kept = map_file_.read_perception(visit);
+  if (!kept) {
+    return kept.error();
+  }
+  auto perceived = wire::from_document<cairn_lcm::perceived_place_t>(*kept);
+  cairn_lcm::perceived_place_t message =
+      perceived ? *std::move(perceived)
+                : to_perceived_place(visits[static_cast<std::size_t>(visit)].perceived, visit,
+                                     place_options_);
+  const std::vector<int>& places = service_->state()->place_of_visit;
+  const auto index = static_cast<std::size_t>(visit);
+  message.place_id = index < places.size() ? places[index] : -1;
+  return message;
+}
+
 void Engine::commit() {
   write_waiting(true);
 }
@@ -202,8 +241,7 @@ void Engine::write_waiting(bool commit) {
   const auto start = std::chrono::steady_clock::now();
   Status status;
   while (appended_ < waiting_.size() && status) {
-    status = std::visit([this](const auto& entry) { return map_file_.append(entry); },
-                        waiting_[appended_]);
+    status = std::visit([this](const auto& entry) { return append(entry); }, waiting_[appended_]);
     appended_ += status ? 1U : 0U;
   }
   if (status && (commit || appended_ >= kCommitAfter)) {

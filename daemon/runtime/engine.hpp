@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include <cairn_lcm/perceived_place_t.hpp>
+
 #include "runtime/map_maker.hpp"
 #include "runtime/stage_clock.hpp"
 #include "sensing/odometry.hpp"
@@ -46,6 +48,10 @@ class Engine {
   /// holds the new map for whoever reads it, but for the drawing.
   Result<AssertionReport> take(const OperatorOrder& order);
 
+  /// What was seen of a place at a visit, as it was kept then; of a visit of which nothing was
+  /// kept, what its stored map shows now. kNotFound where there is no such visit.
+  [[nodiscard]] Result<cairn_lcm::perceived_place_t> perception(std::int64_t visit);
+
   /// Puts on the disk what is not there yet.
   void commit();
   void store(const Documents& documents);
@@ -69,9 +75,12 @@ class Engine {
   [[nodiscard]] std::optional<AssertionReport> said_already(const OperatorOrder& order) const;
   void store_map();
   void journal(const Updates& updates);
+  Status append(const PerceivedScan& scan);
+  Status append(const Visit& visit);
   void write_waiting(bool commit);
   void bound_waiting();
 
+  PlaceOptions place_options_;
   MapFile map_file_;
   StageClock stage_clock_;
   std::unique_ptr<MappingService> service_;

@@ -34,6 +34,7 @@ Documents documents_without_drawing(const MapState& state, const Sender& sender)
   documents.bytes[What::TOPOLOGY] = wire::to_document(to_topology(state, sender));
   documents.bytes[What::HYPOTHESES] = wire::to_document(to_hypotheses(state, sender));
   documents.bytes[What::TRAJECTORY] = wire::to_document(to_trajectory(state, sender));
+  documents.bytes[What::VISITS] = wire::to_document(to_visit_places(state, sender));
   return documents;
 }
 

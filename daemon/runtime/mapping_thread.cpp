@@ -104,6 +104,10 @@ MapAnswer MappingThread::answered(const cairn_lcm::explain_request_t& request) {
   return answer(request, *engine_);
 }
 
+MapAnswer MappingThread::answered(const cairn_lcm::perception_request_t& request) {
+  return answer(request, engine_.get());
+}
+
 void MappingThread::commit_when_due() {
   if (is_due(last_commit_, options_.commit_every_s)) {
     engine_->commit();
@@ -118,6 +122,7 @@ MappingReport MappingThread::own_report() const {
   report.joiner = service.joiner_counters();
   report.health = service.health();
   report.local_map_restarts = service.local_map_restarts();
+  report.distinctiveness = service.distinctiveness();
   report.journal_trouble = engine_->journal_trouble();
   return report;
 }

@@ -14,6 +14,8 @@
 #include <cairn_lcm/explain_request_t.hpp>
 #include <cairn_lcm/explanation_t.hpp>
 #include <cairn_lcm/name_request_t.hpp>
+#include <cairn_lcm/perception_request_t.hpp>
+#include <cairn_lcm/perception_t.hpp>
 #include <cairn_lcm/result_t.hpp>
 
 #include "runtime/bounded_queue.hpp"
@@ -29,10 +31,14 @@ struct MappedFix {
 };
 
 /// What clients ask of whoever owns the map, and what they are answered.
-using MapRequest = std::
-    variant<cairn_lcm::name_request_t, cairn_lcm::assert_request_t, cairn_lcm::explain_request_t>;
-using MapAnswer =
-    std::variant<cairn_lcm::result_t, cairn_lcm::assertion_report_t, cairn_lcm::explanation_t>;
+using MapRequest = std::variant<cairn_lcm::name_request_t,
+                                cairn_lcm::assert_request_t,
+                                cairn_lcm::explain_request_t,
+                                cairn_lcm::perception_request_t>;
+using MapAnswer = std::variant<cairn_lcm::result_t,
+                               cairn_lcm::assertion_report_t,
+                               cairn_lcm::explanation_t,
+                               cairn_lcm::perception_t>;
 
 /// What the mapping thread makes known to the event loop; journalled before it is handed out.
 struct MappingReport {
@@ -45,6 +51,7 @@ struct MappingReport {
   JoinerCounters joiner;
   LocalisationHealth health;
   std::int64_t local_map_restarts = 0;
+  double distinctiveness = 0.0;  ///< Of where the robot is.
   std::optional<Relocalisation> relocalised;
   std::optional<MapAnswer> answer;
   double update_ms = 0.0;  ///< To take the reading in.
@@ -93,6 +100,7 @@ class MappingThread {
   MapAnswer answered(const cairn_lcm::name_request_t& request);
   MapAnswer answered(const cairn_lcm::assert_request_t& request);
   MapAnswer answered(const cairn_lcm::explain_request_t& request);
+  MapAnswer answered(const cairn_lcm::perception_request_t& request);
   void finish_pause();
   void commit_when_due();
   void report(const Updates& updates, double update_ms);

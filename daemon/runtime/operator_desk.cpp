@@ -278,4 +278,15 @@ explanation_t answer(const explain_request_t& request, const Engine& engine) {
   return message;
 }
 
+cairn_lcm::perception_t answer(const cairn_lcm::perception_request_t& request, Engine* engine) {
+  cairn_lcm::perception_t answer{};
+  Result<cairn_lcm::perceived_place_t> perceived = engine->perception(request.visit);
+  answer.result = to_result(request.header, perceived ? Status() : Status(perceived.error()));
+  answer.map_id = engine->map_id();
+  if (perceived) {
+    answer.perceived = *std::move(perceived);
+  }
+  return answer;
+}
+
 }  // namespace cairn

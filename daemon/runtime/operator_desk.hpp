@@ -4,6 +4,8 @@
 #include <cairn_lcm/assertion_report_t.hpp>
 #include <cairn_lcm/explain_request_t.hpp>
 #include <cairn_lcm/explanation_t.hpp>
+#include <cairn_lcm/perception_request_t.hpp>
+#include <cairn_lcm/perception_t.hpp>
 
 #include "runtime/engine.hpp"
 
@@ -20,6 +22,9 @@ constexpr std::size_t kMostMoved = 1'000;
 /// kMostSteps alternatives, those taken and possible first: the answer fits into one message.
 [[nodiscard]] cairn_lcm::explanation_t answer(const cairn_lcm::explain_request_t& request,
                                               const Engine& engine);
+/// What was seen of a place at a visit.
+[[nodiscard]] cairn_lcm::perception_t answer(const cairn_lcm::perception_request_t& request,
+                                             Engine* engine);
 constexpr std::int64_t kVisitsAtOnce = 20;
 constexpr std::size_t kMostSteps = 120;
 

@@ -27,6 +27,9 @@ Addressed addressed(cairn_lcm::assertion_report_t& answer) {
 Addressed addressed(cairn_lcm::explanation_t& answer) {
   return {"CAIRN_EXPLANATION", &answer.result};
 }
+Addressed addressed(cairn_lcm::perception_t& answer) {
+  return {"CAIRN_PERCEPTION", &answer.result};
+}
 
 }  // namespace
 
@@ -74,6 +77,7 @@ Publisher::Publisher(wire::Bus& bus,
   serve(What::HYPOTHESES, to_hypotheses);
   serve(What::TRAJECTORY, to_trajectory);
   serve(What::ASSERTIONS, to_assertions);
+  serve(What::VISITS, to_visit_places);
 }
 
 void Publisher::publish(const MappingReport& report) {

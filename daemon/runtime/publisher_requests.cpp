@@ -35,6 +35,8 @@ bool Publisher::subscribe() {
          listen("CAIRN_REQUEST_ASSERT", &Publisher::on_map_request<cairn_lcm::assert_request_t>) &&
          listen("CAIRN_REQUEST_EXPLAIN",
                 &Publisher::on_map_request<cairn_lcm::explain_request_t>) &&
+         listen("CAIRN_REQUEST_PERCEPTION",
+                &Publisher::on_map_request<cairn_lcm::perception_request_t>) &&
          listen("CAIRN_REQUEST_SNAPSHOT", &Publisher::on_snapshot) &&
          listen("CAIRN_REQUEST_DELTA", &Publisher::on_delta) &&
          listen("CAIRN_REQUEST_EVENTS", &Publisher::on_events) &&

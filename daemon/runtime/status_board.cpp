@@ -46,6 +46,7 @@ void StatusBoard::took(const MappingReport& report) {
   log_health(health_, report.health, options_.service.localisation);
   health_ = report.health;
   local_map_restarts_ = report.local_map_restarts;
+  distinctiveness_ = report.distinctiveness;
   if (report.relocalised) {
     relocalised_ = report.relocalised;
     spdlog::info("{}", to_text(*relocalised_));
@@ -111,6 +112,7 @@ cairn_lcm::status_t StatusBoard::status(bool hears_another_daemon,
   add_inlet_counters(inlets, &status);
   add_health(health_, options_.service.localisation, &status);
   status.local_map_restarts = local_map_restarts_;
+  status.distinctiveness_share = distinctiveness_;
   status.relocalisations = relocalised_ ? relocalised_->number : 0;
   status.relocalised = relocalised_ ? to_text(*relocalised_) : "";
   status.udp_drops = wire::own_udp_drops().value_or(-1);

@@ -50,6 +50,7 @@ class StatusBoard {
   JoinerCounters joiner_;
   LocalisationHealth health_;
   std::int64_t local_map_restarts_ = 0;
+  double distinctiveness_ = 0.0;
   std::optional<Relocalisation> relocalised_;
   Latency latency_;
 };

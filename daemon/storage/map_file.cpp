@@ -13,6 +13,7 @@ constexpr const char* kSchema = R"(
                                   bytes BLOB NOT NULL);
   CREATE TABLE IF NOT EXISTS visit(number INTEGER PRIMARY KEY, after_scan INTEGER NOT NULL,
                                    bytes BLOB NOT NULL);
+  CREATE TABLE IF NOT EXISTS perception(visit INTEGER PRIMARY KEY, bytes BLOB NOT NULL);
   CREATE TABLE IF NOT EXISTS name(place_visit INTEGER PRIMARY KEY, name TEXT NOT NULL);
   CREATE TABLE IF NOT EXISTS assertion(step INTEGER PRIMARY KEY, after_scan INTEGER NOT NULL,
                                        after_visit INTEGER NOT NULL, utime INTEGER NOT NULL,
@@ -162,6 +163,26 @@ Status MapFile::append(const Visit& visit) {
     ++visit_count_;
   }
   return status;
+}
+
+Status MapFile::append_perception(std::int64_t visit, const std::vector<std::uint8_t>& bytes) {
+  if (Status status = begin(); !status) {
+    return status;
+  }
+  Result<Statement> insert = database_.prepare("INSERT OR REPLACE INTO perception VALUES(?, ?)");
+  return insert ? insert->bind(0, visit).bind(1, bytes).run() : insert.error();
+}
+
+Result<std::vector<std::uint8_t>> MapFile::read_perception(std::int64_t visit) {
+  Result<Statement> row = database_.prepare("SELECT bytes FROM perception WHERE visit = ?");
+  if (!row) {
+    return row.error();
+  }
+  const Result<bool> found = row->bind(0, visit).step();
+  if (!found) {
+    return found.error();
+  }
+  return *found ? row->bytes(0) : std::vector<std::uint8_t>();
 }
 
 Status MapFile::commit() {

@@ -17,8 +17,9 @@ namespace cairn {
 
 /// The map file: one SQLite file with the journal of experience (every perceived scan, every visit
 /// with its local perceptual map, every assertion of an operator), what was last published of it
-/// (documents), names and the format version. Scans and visits are cairn_journal messages,
-/// compressed with zstd; assertions are plain columns, for whoever audits them with other tools.
+/// (documents), pictures of what was seen of places, names and the format version. Scans and visits
+/// are cairn_journal messages, compressed with zstd; assertions are plain columns, for whoever
+/// audits them with other tools.
 ///
 /// What has been committed survives kill -9, a full disk and a power cut (write-ahead log with full
 /// synchronisation). The same experience gives the same bytes.
@@ -34,6 +35,11 @@ class MapFile {
   Status append(const PerceivedScan& scan);
   /// Takes a visit into the journal, with the next commit.
   Status append(const Visit& visit);
+  /// Takes what was seen of the place of a visit, as clients draw it, with the next commit. Beside
+  /// the journal: nothing is taken up from it.
+  Status append_perception(std::int64_t visit, const std::vector<std::uint8_t>& bytes);
+  /// The same back; empty where none was kept.
+  [[nodiscard]] Result<std::vector<std::uint8_t>> read_perception(std::int64_t visit);
   /// From here on, all that was appended is on the disk.
   Status commit();
   /// Forgets what was appended since the last commit, for instance after a full disk.

@@ -173,6 +173,17 @@ cairn_lcm::trajectory_t to_trajectory(const MapState& state, const Sender& sende
   return message;
 }
 
+cairn_lcm::visit_places_t to_visit_places(const MapState& state, const Sender& sender) {
+  cairn_lcm::visit_places_t message{};
+  message.utime = utime_of(state.time);
+  message.boot_id = sender.boot_id;
+  message.map_id = sender.map_id;
+  message.revision = state.topology_revision;
+  message.place_id.assign(state.place_of_visit.begin(), state.place_of_visit.end());
+  message.num_visits = count_of(message.place_id.size());
+  return message;
+}
+
 cairn_lcm::pose_t to_pose(const LocalFix& fix,
                           const GaussianPose* T_global_robot,
                           const MapState* state,

@@ -8,6 +8,7 @@
 #include <cairn_lcm/pose_t.hpp>
 #include <cairn_lcm/topology_t.hpp>
 #include <cairn_lcm/trajectory_t.hpp>
+#include <cairn_lcm/visit_places_t.hpp>
 
 #include "lpm/local_mapper.hpp"
 #include "service/map_state.hpp"
@@ -26,6 +27,8 @@ struct Sender {
 [[nodiscard]] cairn_lcm::hypotheses_t to_hypotheses(const MapState& state, const Sender& sender);
 [[nodiscard]] cairn_lcm::assertions_t to_assertions(const MapState& state, const Sender& sender);
 [[nodiscard]] cairn_lcm::trajectory_t to_trajectory(const MapState& state, const Sender& sender);
+[[nodiscard]] cairn_lcm::visit_places_t to_visit_places(const MapState& state,
+                                                        const Sender& sender);
 
 /// @param T_global_robot none while no pose in the global frame is claimed
 /// @param state may be null: no place is known then

@@ -7,6 +7,7 @@
 
 #include "grid/axis_graph.hpp"
 #include "grid/critical_points.hpp"
+#include "place/opening_reason.hpp"
 #include "place/small_scale_star.hpp"
 
 namespace cairn {
@@ -20,8 +21,6 @@ constexpr double kDirection_m = 1.5;
 constexpr double kDepthsLooked = 2.0;
 /// A passage is so many times as deep as wide.
 constexpr double kDepthPerWidth = 1.5;
-/// Of the depth of a passage of which there is no doubt, as much was seen between walls.
-constexpr double kPlainShare = 0.7;
 /// A gateway stays one as long as so much of the depth that makes one is seen.
 constexpr double kEnoughToStay = 0.7;
 constexpr double kSure = std::numeric_limits<double>::infinity();
@@ -117,7 +116,8 @@ bool is_between_two_walls(const LocalView& view, const Gateway& line) {
 /// of it on both sides.
 bool is_plain(const Passage& passage, double enough_m) {
   return passage.goes_beyond_map || passage.to_end_m >= 0.5 * enough_m ||
-         (passage.along_wall_m >= enough_m && passage.between_walls_m >= kPlainShare * enough_m);
+         (passage.along_wall_m >= enough_m &&
+          passage.between_walls_m >= kPlainWallShare * enough_m);
 }
 
 /// Of the depth of a passage of which there is no doubt, where so much was seen a passage and an
@@ -138,9 +138,69 @@ double log_odds_of_passage(const Passage& passage,
          (is_doorway ? kLessForDoorway : 0.0);
 }
 
+/// A way that never narrows, or not between two sides: what is known of it is its end.
+ConsideredOpening without_line(const LocalView& view, AxisWay way, bool is_undecided) {
+  const AxisEdge& edge = view.axis.edges[way.edge];
+  const std::size_t last = index_on_edge(view.axis, way, edge.cells.size() - 1);
+  ConsideredOpening opening;
+  opening.line.middle = view.grid.geometry().center_of(edge.cells[last]);
+  opening.line.basis_points = {opening.line.middle, opening.line.middle};
+  opening.line.outward_bearing_rad = bearing_beyond(view, view.axis, way, edge.cells.size() - 1);
+  opening.state = is_undecided ? OpeningState::kUndecided : OpeningState::kRejected;
+  opening.reason = is_undecided ? OpeningReason::kUnknownBehind : OpeningReason::kBlindAlcove;
+  return opening;
+}
+
 double bearing_from(const Vector2d& center, const Gateway& gateway) {
   const Vector2d to = gateway.middle - center;
   return std::atan2(to.y(), to.x());
+}
+
+void reject_as_too_close(const Gateway& gateway, std::vector<ConsideredOpening>* considered) {
+  for (ConsideredOpening& opening : *considered) {
+    if (opening.line.basis_points == gateway.basis_points) {
+      opening.state = OpeningState::kRejected;
+      opening.reason = OpeningReason::kTooClose;
+    }
+  }
+}
+
+/// Whether the line, with what was seen behind it, is a gateway, may be one, or is none.
+void judge(const LocalView& view,
+           const Gateway& line,
+           const Passage& passage,
+           const PlaceOptions& options,
+           WayOut* out) {
+  const double needed_m = passage_depth_m(line.width_m, options);
+  const bool is_walled = is_between_two_walls(view, line);
+  const bool was_gateway =
+      std::any_of(view.memory.gateways.begin(), view.memory.gateways.end(),
+                  [&](const Gateway& known) { return is_same_gateway(known, line); });
+  const double enough = was_gateway ? kEnoughToStay : 1.0;
+  const bool is_plain_way = is_plain(passage, enough * needed_m);
+  const bool is_doorway = line.width_m < options.doorway_below_m;
+  ConsideredOpening& considered = out->considered;
+  considered = {line, considered.state, OpeningReason::kNotBetweenWalls, passage, needed_m, 0.0};
+  const bool is_driven = is_driven_through(line, view.memory.robot_way);
+  if ((is_walled && !is_doorway && is_plain_way) || is_driven) {
+    out->gateway = line;
+    out->is_undecided = false;
+    considered.state = OpeningState::kGateway;
+  } else if (is_walled) {
+    out->is_undecided = false;
+    considered.log_odds = log_odds_of_passage(passage, line.width_m, is_doorway, options);
+    if (considered.log_odds < kLeastLogOdds) {
+      out->closed = line;
+      considered.state = OpeningState::kRejected;
+    } else {
+      out->unsure = {line, considered.log_odds, is_doorway};
+      considered.state = OpeningState::kUnsure;
+    }
+  }
+  if (is_driven || is_walled) {
+    considered.reason = is_driven ? OpeningReason::kDrivenThrough
+                                  : reason_between_walls(considered, is_plain_way, options);
+  }
 }
 
 }  // namespace
@@ -159,6 +219,7 @@ WayOut way_out(const LocalView& view,
   const AxisEnd end = view.axis.nodes[way.forward ? edge.to : edge.from].end;
   WayOut out;
   out.is_undecided = end != AxisEnd::kBlocked;
+  out.considered = without_line(view, way, out.is_undecided);
   const auto first = first_constriction(view, way, options);
   if (!first) {
     return out;
@@ -172,26 +233,7 @@ WayOut way_out(const LocalView& view,
   const Passage passage =
       passage_beyond(view, walled, site, way, position, kDepthsLooked * options.passage_depth_m);
   line->seen_beyond_m = passage.along_wall_m;
-  const bool is_walled = is_between_two_walls(view, *line);
-  const bool was_gateway =
-      std::any_of(view.memory.gateways.begin(), view.memory.gateways.end(),
-                  [&](const Gateway& known) { return is_same_gateway(known, *line); });
-  const double enough = was_gateway ? kEnoughToStay : 1.0;
-  const bool is_plain_way = is_plain(passage, enough * passage_depth_m(line->width_m, options));
-  const bool is_doorway = line->width_m < options.doorway_below_m;
-  if ((is_walled && !is_doorway && is_plain_way) ||
-      is_driven_through(*line, view.memory.robot_way)) {
-    out.gateway = line;
-    out.is_undecided = false;
-  } else if (is_walled) {
-    out.is_undecided = false;
-    const double log_odds = log_odds_of_passage(passage, line->width_m, is_doorway, options);
-    if (log_odds < kLeastLogOdds) {
-      out.closed = line;
-    } else {
-      out.unsure = {*line, log_odds, is_doorway};
-    }
-  }
+  judge(view, *line, passage, options, &out);
   return out;
 }
 
@@ -205,6 +247,7 @@ SiteBounds bounds_of(const LocalView& view,
   for (const AxisWay& way : site.ways) {
     const WayOut out = way_out(view, walled, site, way, options);
     bounds.is_decided = bounds.is_decided && !out.is_undecided;
+    bounds.considered.push_back(out.considered);
     if (out.gateway) {
       found.push_back({*out.gateway, kSure, false});
     } else if (out.unsure) {
@@ -225,6 +268,7 @@ SiteBounds bounds_of(const LocalView& view,
     });
     if (!is_separate) {
       bounds.closed.push_back(one.gateway);
+      reject_as_too_close(one.gateway, &bounds.considered);
       continue;
     }
     kept.push_back(one.gateway);

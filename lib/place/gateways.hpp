@@ -6,6 +6,7 @@
 #include "place/axis_sites.hpp"
 #include "place/gateway.hpp"
 #include "place/local_view.hpp"
+#include "place/opening.hpp"
 #include "place/passage.hpp"
 #include "place/star_readings.hpp"
 
@@ -19,6 +20,7 @@ struct WayOut {
   std::optional<Gateway> closed;
   /// Whether the way ends in unknown space before it can be told: the place is not complete.
   bool is_undecided = false;
+  ConsideredOpening considered;  ///< The same with the figures that decided.
 };
 
 /// How far walls must be seen along the way behind an opening so wide for it to be a passage.
@@ -39,6 +41,7 @@ struct SiteBounds {
   std::vector<UnsureGateway> unsure;
   std::vector<Gateway> closed;
   bool is_decided = true;
+  std::vector<ConsideredOpening> considered;  ///< Every way out, with what became of it.
 };
 
 /// Looks at all ways out of a site. Of two gateways that cannot be told apart by their bearing from

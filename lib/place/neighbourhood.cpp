@@ -45,6 +45,18 @@ Vector2d center_of(const LocalView& view, const AxisSite& site) {
   return sum / count;
 }
 
+/// Of the site's nodes the nearest to a point: free space, which their mean need not be.
+Vector2d nearest_node(const LocalView& view, const AxisSite& site, const Vector2d& p) {
+  const auto at = [&](std::size_t n) {
+    return view.grid.geometry().center_of(view.axis.nodes[n].cell);
+  };
+  const auto nearest =
+      std::min_element(site.nodes.begin(), site.nodes.end(), [&](std::size_t a, std::size_t b) {
+        return (at(a) - p).squaredNorm() < (at(b) - p).squaredNorm();
+      });
+  return at(*nearest);
+}
+
 bool is_near_node(const LocalView& view, const AxisSite& site) {
   return std::any_of(site.nodes.begin(), site.nodes.end(), [&](std::size_t n) {
     const AxisNode& node = view.axis.nodes[n];
@@ -100,6 +112,7 @@ std::optional<PlaceNeighbourhood> neighbourhood_of(const LocalView& view,
   if (!is_place(place, options)) {
     return std::nullopt;
   }
+  place.considered = bounds.considered;
   std::vector<Cell> starts;
   for (const std::size_t n : site.nodes) {
     starts.push_back(view.axis.nodes[n].cell);
@@ -113,7 +126,7 @@ std::optional<PlaceNeighbourhood> neighbourhood_of(const LocalView& view,
       flooded_region(view, starts, lines, place.center, options.robot_width_m);
   place.is_complete = bounds.is_decided && region.is_complete;
   place.radius_m = region.radius_m;
-  place.distinctiveness = region.distinctiveness;
+  place.distinctiveness = island_at(view, nearest_node(view, site, place.center)).distinctiveness;
   // With a way still undecided the region has no bound there; only the meeting point counts then.
   place.contains_robot = bounds.is_decided ? region.contains_robot : is_near_node(view, site);
   return place;
@@ -134,6 +147,9 @@ PlaceNeighbourhood transformed(const Pose2& T_to_from, const PlaceNeighbourhood&
   for (UnsureGateway& one : result.unsure) {
     one.gateway = transformed(T_to_from, one.gateway);
   }
+  for (ConsideredOpening& opening : result.considered) {
+    opening.line = transformed(T_to_from, opening.line);
+  }
   return result;
 }
 
@@ -142,26 +158,28 @@ std::vector<PlaceNeighbourhood> find_places(const OccupancyGrid& grid,
                                             const PlaceOptions& options,
                                             PlaceMemory memory) {
   LocalViewer viewer;
-  return find_places(grid, p_grid_robot, options, std::move(memory), &viewer);
+  return find_places(grid, p_grid_robot, options, std::move(memory), &viewer).places;
 }
 
-std::vector<PlaceNeighbourhood> find_places(const OccupancyGrid& grid,
-                                            const Vector2d& p_grid_robot,
-                                            const PlaceOptions& options,
-                                            PlaceMemory memory,
-                                            LocalViewer* viewer) {
+PlacesAround find_places(const OccupancyGrid& grid,
+                         const Vector2d& p_grid_robot,
+                         const PlaceOptions& options,
+                         PlaceMemory memory,
+                         LocalViewer* viewer) {
   LocalView view =
       viewer->look_around(grid, p_grid_robot, options, kWeakCorner * options.min_corner_rad);
   view.memory = std::move(memory);
+  PlacesAround around;
+  around.at_robot = island_at(view, p_grid_robot);
   const WalledLengths walled(view);
-  std::vector<PlaceNeighbourhood> places;
   for (const AxisSite& site : axis_sites(view, options)) {
     std::optional<PlaceNeighbourhood> place = neighbourhood_of(view, walled, site, options);
-    if (place && place->distinctiveness >= options.min_distinctiveness) {
-      places.push_back(*std::move(place));
+    // As long as the star is not complete, not all walls are seen that tell a pose there.
+    if (place && (!place->is_complete || place->distinctiveness >= options.min_distinctiveness)) {
+      around.places.push_back(*std::move(place));
     }
   }
-  return places;
+  return around;
 }
 
 }  // namespace cairn

@@ -4,7 +4,9 @@
 
 #include "grid/occupancy_grid.hpp"
 #include "place/gateway.hpp"
+#include "place/island.hpp"
 #include "place/local_view.hpp"
+#include "place/opening.hpp"
 #include "place/path_fragments.hpp"
 #include "place/place_options.hpp"
 #include "place/star_readings.hpp"
@@ -25,8 +27,11 @@ struct PlaceNeighbourhood {
   /// gateway or an unsure one. Unknown stretches narrower than the robot do not count.
   bool is_complete = false;
   double radius_m = 0.0;         ///< From the centre to the farthest gateway or wall of the region.
-  double distinctiveness = 0.0;  ///< See place/island.hpp; [0, 1].
+  double distinctiveness = 0.0;  ///< Near the centre: see place/island.hpp; [0, 1].
   bool contains_robot = false;   ///< Whether the robot was inside when this was read.
+  /// Every way out that was looked at, gateway or not, and why. For people: nothing is decided by
+  /// it, and the journal of visits does not have it.
+  std::vector<ConsideredOpening> considered;
 };
 
 /// The gateways of the first reading that are sure.
@@ -48,11 +53,19 @@ struct PlaceNeighbourhood {
                                                           const Vector2d& p_grid_robot,
                                                           const PlaceOptions& options,
                                                           PlaceMemory memory = {});
-/// The same, with a viewer that has looked at the map before, as a rule from nearby: faster.
-[[nodiscard]] std::vector<PlaceNeighbourhood> find_places(const OccupancyGrid& grid,
-                                                          const Vector2d& p_grid_robot,
-                                                          const PlaceOptions& options,
-                                                          PlaceMemory memory,
-                                                          LocalViewer* viewer);
+
+/// What one look at the map shows.
+struct PlacesAround {
+  std::vector<PlaceNeighbourhood> places;
+  IslandMeasure at_robot;  ///< How well the walls in sight tell where the robot is.
+};
+
+/// The same, and more, with a viewer that has looked at the map before, as a rule from nearby:
+/// faster.
+[[nodiscard]] PlacesAround find_places(const OccupancyGrid& grid,
+                                       const Vector2d& p_grid_robot,
+                                       const PlaceOptions& options,
+                                       PlaceMemory memory,
+                                       LocalViewer* viewer);
 
 }  // namespace cairn

@@ -116,7 +116,10 @@ void PlaceDetector::look(const StampedPose& now,
     const std::vector<Gateway> sure = sure_gateways(place);
     memory.gateways.insert(memory.gateways.end(), sure.begin(), sure.end());
   }
-  around_ = find_places(grid, now.T_lpm_robot.translation(), options_, std::move(memory), &viewer_);
+  PlacesAround around =
+      find_places(grid, now.T_lpm_robot.translation(), options_, std::move(memory), &viewer_);
+  around_ = std::move(around.places);
+  island_ = around.at_robot;
   const PlaceNeighbourhood* const here = place_with_robot(around_);
   if (stay_) {
     // As long as nothing complete was seen, the place is whatever is read around the robot.

@@ -61,6 +61,9 @@ class PlaceDetector {
   /// The places of the last look, in frame lpm.
   [[nodiscard]] const std::vector<PlaceNeighbourhood>& places_around() const { return around_; }
 
+  /// How well the walls around told the robot's pose at the last look.
+  [[nodiscard]] const IslandMeasure& island() const { return island_; }
+
   /// Whether the robot is at a place whose star was complete.
   [[nodiscard]] bool is_at_place() const { return stay_ && stay_->is_complete(); }
 
@@ -87,6 +90,7 @@ class PlaceDetector {
   PlaceDetectorReport report_;
   LocalViewer viewer_;
   std::vector<PlaceNeighbourhood> around_;
+  IslandMeasure island_;
   std::optional<StampedPose> last_pose_;
   std::optional<StampedPose> last_look_;
   std::vector<StampedPose> way_;  ///< The last metres before a stay.

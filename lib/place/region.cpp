@@ -5,8 +5,6 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "place/island.hpp"
-
 namespace cairn {
 namespace {
 
@@ -77,7 +75,6 @@ class RegionFlood {
     const GridGeometry& geometry = view_.grid.geometry();
     PlaceRegion region;
     std::vector<Cell> unknown;
-    std::vector<Vector2d> normals;
     bool is_cut = false;
     double radius_squared = 0.0;
     for (const Cell c : cells_) {
@@ -92,9 +89,7 @@ class RegionFlood {
       std::uint8_t& mark = marks_[geometry.index_of(basis)];
       if ((mark & kBounds) == 0) {
         mark |= kBounds;
-        if (view_.is_wall_at(basis)) {
-          normals.push_back(Vector2d(to.dx, to.dy).normalized());
-        } else {
+        if (!view_.is_wall_at(basis)) {
           unknown.push_back(basis);
           mark |= kUnknown;
         }
@@ -104,7 +99,6 @@ class RegionFlood {
     }
     region.radius_m = std::sqrt(radius_squared);
     region.is_complete = !is_cut && longest_stretch_m(unknown) < robot_width_m_;
-    region.distinctiveness = distinctiveness(normals);
     region.contains_robot = holds(view_.robot);
     return region;
   }

@@ -13,7 +13,6 @@ struct PlaceRegion {
       false;  ///< No unknown stretch as wide as the robot, and not cut by the window.
   bool contains_robot = false;
   double radius_m = 0.0;  ///< From the centre to the farthest wall or gateway of the region.
-  double distinctiveness = 0.0;
 };
 
 /// Floods the passable cells from the given ones.

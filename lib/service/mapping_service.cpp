@@ -58,6 +58,10 @@ const OccupancyGrid& MappingService::local_map() const {
 const LocalisationHealth& MappingService::health() const {
   return pipeline_->health();
 }
+double MappingService::distinctiveness() const {
+  return pipeline_->distinctiveness();
+}
+
 std::int64_t MappingService::local_map_restarts() const {
   return pipeline_->local_map_restarts();
 }

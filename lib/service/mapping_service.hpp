@@ -91,6 +91,8 @@ class MappingService {
   [[nodiscard]] const LocalisationHealth& health() const;
   /// How often the local map was started afresh.
   [[nodiscard]] std::int64_t local_map_restarts() const;
+  /// How well the walls around tell the robot's pose: see place/island.hpp; [0, 1].
+  [[nodiscard]] double distinctiveness() const;
   [[nodiscard]] const JoinerCounters& joiner_counters() const;
   [[nodiscard]] const PlaceDetectorReport& place_report() const;
   /// Where the robot is in the frame of the best map, as of the last scan: the place of the last

@@ -50,6 +50,7 @@ class MappingService::Pipeline {
   [[nodiscard]] const LocalisationHealth& health() const { return watch_.health(); }
   [[nodiscard]] std::int64_t local_map_restarts() const { return local_mapper_.restarts(); }
   [[nodiscard]] const JoinerCounters& joiner_counters() const { return joiner_.counters(); }
+  [[nodiscard]] double distinctiveness() const { return place_detector_.island().distinctiveness; }
   [[nodiscard]] const PlaceDetectorReport& place_report() const { return place_detector_.report(); }
   [[nodiscard]] GaussianPose T_global_robot() const {
     return compounded(T_global_anchor_, since_anchor_);

@@ -4,13 +4,12 @@
 #include <limits>
 #include <optional>
 
-#include <Eigen/Cholesky>
-
 namespace cairn {
 namespace {
 
 /// Where the robot is said to be at a place, it is within this of its centre.
 constexpr double kLeastWide_m = 1.0;
+constexpr double kAnyHeading_rad = 10.0;
 
 }  // namespace
 
@@ -132,10 +131,13 @@ double VisitMatcher::chi2_of_unmatched(const TopologicalMap& map) const {
     const GaussianPose& T_first_visit = dead_reckoned(first, visit);
     const double wide_m = std::max(
         kLeastWide_m, experience_.visits()[first.index()].perceived.neighbourhood.radius_m);
-    const Eigen::Matrix2d spread = T_first_visit.covariance.topLeftCorner<2, 2>() +
-                                   wide_m * wide_m * Eigen::Matrix2d::Identity();
-    const Vector2d away = T_first_visit.mean.translation();
-    chi2 += away.dot(spread.ldlt().solve(away));
+    // The heading in which a place is seen says nothing: its frame has that of the local map.
+    const Matrix3d spread =
+        T_first_visit.covariance + Matrix3d(Eigen::Vector3d(wide_m * wide_m, wide_m * wide_m,
+                                                            kAnyHeading_rad * kAnyHeading_rad)
+                                                .asDiagonal());
+    const Pose2 at_place(0.0, 0.0, T_first_visit.mean.theta());
+    chi2 += squared_mahalanobis(T_first_visit.mean, at_place, spread);
   }
   return chi2;
 }

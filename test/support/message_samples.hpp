@@ -21,6 +21,10 @@
 #include <cairn_lcm/map_delta_t.hpp>
 #include <cairn_lcm/name_request_t.hpp>
 #include <cairn_lcm/odometry_t.hpp>
+#include <cairn_lcm/opening_t.hpp>
+#include <cairn_lcm/perceived_place_t.hpp>
+#include <cairn_lcm/perception_request_t.hpp>
+#include <cairn_lcm/perception_t.hpp>
 #include <cairn_lcm/place_event_t.hpp>
 #include <cairn_lcm/place_ref_t.hpp>
 #include <cairn_lcm/place_t.hpp>
@@ -37,6 +41,7 @@
 #include <cairn_lcm/tile_t.hpp>
 #include <cairn_lcm/topology_t.hpp>
 #include <cairn_lcm/trajectory_t.hpp>
+#include <cairn_lcm/visit_places_t.hpp>
 #include <mbot_lcm_msgs/lidar_t.hpp>
 #include <mbot_lcm_msgs/pose2D_t.hpp>
 #include <vulcan_lcm/laser_3dof_t.hpp>
@@ -219,6 +224,50 @@ inline cairn_lcm::explanation_t sample() {
   message.sentence = "hypotheses 1 and 2 part at visit 7";
   message.steps.assign(2, sample<cairn_lcm::explained_step_t>());
   message.num_steps = 2;
+  return message;
+}
+
+template <>
+inline cairn_lcm::opening_t sample() {
+  cairn_lcm::opening_t message{};
+  message.state_name = "rejected";
+  message.reason = "blind alcove";
+  return message;
+}
+
+template <>
+inline cairn_lcm::perceived_place_t sample() {
+  cairn_lcm::perceived_place_t message{};
+  message.star = "((PF1+, (gw1,out), MIDLINE))";
+  message.openings.assign(2, sample<cairn_lcm::opening_t>());
+  message.num_openings = 2;
+  message.fragment_from = message.fragment_through = {0, 1, 2};
+  message.num_fragments = 3;
+  message.axis_x_m = message.axis_y_m = {0.0F, 1.0F, 2.0F, 3.0F};
+  message.num_axis_points = 4;
+  message.axis_line_points = {4};
+  message.num_axis_lines = 1;
+  message.cell_m = 0.1;
+  message.width = 3;
+  message.height = 2;
+  message.cells = {0, 100, 255, 0, 0, 0};
+  message.num_cells = 6;
+  return message;
+}
+
+template <>
+inline cairn_lcm::perception_t sample() {
+  cairn_lcm::perception_t message{};
+  message.result = sample<cairn_lcm::result_t>();
+  message.perceived = sample<cairn_lcm::perceived_place_t>();
+  return message;
+}
+
+template <>
+inline cairn_lcm::visit_places_t sample() {
+  cairn_lcm::visit_places_t message{};
+  message.place_id = {0, 1, 0};
+  message.num_visits = 3;
   return message;
 }
 

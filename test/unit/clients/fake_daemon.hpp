@@ -10,6 +10,8 @@
 #include <cairn_lcm/explain_request_t.hpp>
 #include <cairn_lcm/explanation_t.hpp>
 #include <cairn_lcm/map_delta_t.hpp>
+#include <cairn_lcm/perception_request_t.hpp>
+#include <cairn_lcm/perception_t.hpp>
 #include <cairn_lcm/place_event_t.hpp>
 #include <cairn_lcm/plan_request_t.hpp>
 #include <cairn_lcm/plan_t.hpp>
@@ -43,6 +45,10 @@ class FakeDaemon {
             small_chunks()) {
     serve(cairn_lcm::snapshot_request_t::TOPOLOGY, sample_topology());
     serve(cairn_lcm::snapshot_request_t::HYPOTHESES, sample_hypotheses());
+    serve(cairn_lcm::snapshot_request_t::VISITS, sample_visits());
+    subscribe<cairn_lcm::perception_request_t>(
+        bus, "CAIRN_REQUEST_PERCEPTION",
+        [this](const cairn_lcm::perception_request_t& request) { show(request); });
     serve(cairn_lcm::snapshot_request_t::GLOBAL_MAP, sample_grid());
     serve(cairn_lcm::snapshot_request_t::ASSERTIONS, sample_assertions());
     subscribe<cairn_lcm::assert_request_t>(
@@ -126,6 +132,17 @@ class FakeDaemon {
     report.known_since_after = {9};
     report.place = {6};
     bus_.publish("CAIRN_ASSERTION", report);
+  }
+
+  void show(const cairn_lcm::perception_request_t& request) {
+    if (request.visit < 0 || request.visit >= sample_visits().num_visits) {
+      refuse(request.header, cairn_lcm::result_t::NOT_FOUND, "there is no such visit");
+      return;
+    }
+    cairn_lcm::perception_t answer{};
+    answer.result.header = request.header;
+    answer.perceived = sample_perceived(request.visit);
+    bus_.publish("CAIRN_PERCEPTION", answer);
   }
 
   /// Of five visits, two an answer; visit 3 was to place 2.

@@ -102,6 +102,19 @@ TEST_F(LiveCommands, DrawTheSamePictureAsFromTheFile) {
   EXPECT_EQ(content_of(live), content_of(filed));
 }
 
+TEST_F(LiveCommands, DrawTheSamePlacesAsFromTheFile) {
+  const TemporaryFolder folder;
+  write_sample_map(folder / "m.cairn");
+  const std::string map = (folder / "m.cairn").string();
+
+  const Outcome live = run({"places", "--all", "--png", (folder / "live").string()});
+  EXPECT_EQ(live.status, 0) << live.err;
+  EXPECT_EQ(run({"places", "--all", "--png", (folder / "file").string(), map}).status, 0);
+  EXPECT_EQ(content_of(folder / "live" / "place-1-visit-5.png"),
+            content_of(folder / "file" / "place-1-visit-5.png"));
+  EXPECT_EQ(run({"map", "--places", "--png", (folder / "m.png").string()}).status, 0);
+}
+
 TEST_F(LiveCommands, ATrajectoryThatTheDaemonDoesNotHaveIsBadData) {
   const Outcome outcome = run({"export", "--trajectory", "/dev/null"});
   EXPECT_EQ(outcome.status, 65);

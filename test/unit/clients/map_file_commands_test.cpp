@@ -188,6 +188,50 @@ TEST_F(MapFileCommands, PictureIsAPngOfTheSizeAskedFor) {
   EXPECT_EQ(png.substr(16, 4), std::string({0, 0, 3, 32})) << "width 800";
 }
 
+TEST_F(MapFileCommands, PicturesOfPlacesShowTheVisitOfTheMapOrAll) {
+  const Outcome best = run({"places", "--png", output("best"), "--json", map_});
+  EXPECT_EQ(best.status, 0) << best.err;
+  EXPECT_THAT(best.err, HasSubstr("wrote 5 pictures to "));
+  const nlohmann::json json = nlohmann::json::parse(best.out);
+  ASSERT_EQ(json["pictures"].size(), 5U);
+  EXPECT_EQ(json["pictures"][4]["place"], 5);
+  EXPECT_EQ(json["pictures"][4]["visit"], 4);
+  for (int place = 1; place <= 5; ++place) {
+    const std::string png = content_of(output("best") + "/place-" + std::to_string(place) + ".png");
+    EXPECT_THAT(png, StartsWith("\x89PNG\r\n\x1A\n"));
+    EXPECT_EQ(png.substr(16, 4), std::string({0, 0, 3, static_cast<char>(132)})) << "width 900";
+  }
+
+  const Outcome all = run({"places", "--png", output("all"), "--all", map_});
+  EXPECT_THAT(all.err, HasSubstr("wrote 6 pictures to "));
+  EXPECT_TRUE(std::filesystem::exists(output("all") + "/place-1-visit-5.png"));
+}
+
+TEST_F(MapFileCommands, PicturesOfPlacesNeedAFolderAndPlaces) {
+  std::ofstream(output("taken")) << "a file";
+  const Outcome taken = run({"places", "--png", output("taken"), map_});
+  EXPECT_EQ(taken.status, 73);
+  EXPECT_THAT(taken.err, HasSubstr("taken is a file, and no folder to write into"));
+  EXPECT_EQ(run({"places", "--png", "/dev/null/folder", map_}).status, 73);
+  EXPECT_EQ(run({"places", "--all", map_}).status, 64);
+  EXPECT_EQ(run({"map", "--places", "--svg", output("x.svg"), map_}).status, 64);
+
+  run_sql(map_, "DELETE FROM perception WHERE visit = 3");
+  EXPECT_THAT(run({"places", "--png", output("p"), map_}).err,
+              HasSubstr("does not hold what was seen at visit 3"));
+  run_sql(map_, "DROP TABLE perception");
+  const Outcome old = run({"places", "--png", output("p"), map_});
+  EXPECT_EQ(old.status, 65);
+  EXPECT_THAT(old.err, HasSubstr("made by an earlier cairnd"));
+}
+
+TEST_F(MapFileCommands, ThePictureOfTheMapCanShowWhatWasSeenOfPlaces) {
+  ASSERT_EQ(run({"map", "--png", output("plain.png"), map_}).status, 0);
+  const Outcome seen = run({"map", "--png", output("seen.png"), "--places", map_});
+  EXPECT_EQ(seen.status, 0) << seen.err;
+  EXPECT_NE(content_of(output("seen.png")), content_of(output("plain.png")));
+}
+
 TEST_F(MapFileCommands, GraphFilesNameEveryPlaceAndEdge) {
   ASSERT_EQ(run({"export", "--dot", output("m.dot"), "--graphml", output("m.graphml"),
                  "--topology-svg", output("m.svg"), map_})

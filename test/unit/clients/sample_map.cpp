@@ -106,6 +106,18 @@ cairn_lcm::segment_t segment(std::int64_t from,
   return s;
 }
 
+void store_perceived(sqlite3* database, const cairn_lcm::perceived_place_t& perceived) {
+  const wire::Bytes bytes = wire::to_document(perceived);
+  sqlite3_stmt* statement = nullptr;
+  ASSERT_EQ(
+      sqlite3_prepare_v2(database, "INSERT INTO perception VALUES (?, ?)", -1, &statement, nullptr),
+      SQLITE_OK);
+  sqlite3_bind_int64(statement, 1, perceived.visit);
+  sqlite3_bind_blob(statement, 2, bytes.data(), static_cast<int>(bytes.size()), SQLITE_TRANSIENT);
+  EXPECT_EQ(sqlite3_step(statement), SQLITE_DONE);
+  sqlite3_finalize(statement);
+}
+
 template <typename Message>
 void store(sqlite3* database, std::int32_t what, const Message& message) {
   const wire::Bytes bytes = wire::to_document(message);
@@ -248,6 +260,60 @@ cairn_lcm::status_t sample_status() {
   return s;
 }
 
+cairn_lcm::visit_places_t sample_visits() {
+  cairn_lcm::visit_places_t visits{};
+  visits.map_id = 7;
+  visits.revision = 12;
+  visits.place_id = {1, 2, 3, 4, 5, 1};
+  visits.num_visits = 6;
+  return visits;
+}
+
+cairn_lcm::perceived_place_t sample_perceived(std::int64_t visit) {
+  const std::int64_t place_id = sample_visits().place_id.at(static_cast<std::size_t>(visit));
+  const cairn_lcm::place_t place = sample_topology().places[static_cast<std::size_t>(place_id) - 1];
+  cairn_lcm::perceived_place_t p{};
+  p.visit = visit;
+  p.place_id = -1;
+  p.entered_utime = 1'700'000'000'000'000;
+  p.left_utime = 1'700'000'005'000'000;
+  p.departure_gateway = -1;
+  p.distinctiveness_share = 0.5;
+  p.star = "((PF1+, (gw1,out), MIDLINE),\n(PF1-, (gw1,in), DEADEND))";
+  for (const cairn_lcm::gateway_t& gateway : place.gateways) {
+    cairn_lcm::opening_t opening{};
+    opening.x_m = gateway.x_m;
+    opening.y_m = gateway.y_m;
+    opening.bearing_rad = gateway.bearing_rad;
+    opening.width_m = gateway.width_m;
+    opening.gateway = static_cast<std::int32_t>(p.openings.size());
+    opening.state_name = "gateway";
+    opening.reason = "driven through";
+    p.fragment_from.push_back(opening.gateway);
+    p.fragment_through.push_back(-1);
+    p.openings.push_back(opening);
+  }
+  cairn_lcm::opening_t alcove{};
+  alcove.gateway = -1;
+  alcove.state = cairn_lcm::opening_t::REJECTED;
+  alcove.state_name = "rejected";
+  alcove.reason = "blind alcove";
+  p.openings.push_back(alcove);
+  p.num_openings = static_cast<std::int32_t>(p.openings.size());
+  p.num_fragments = static_cast<std::int32_t>(p.fragment_from.size());
+  p.axis_x_m = {-1.0F, 0.0F, 1.0F};
+  p.axis_y_m = {0.0F, 0.0F, 0.5F};
+  p.num_axis_points = 3;
+  p.axis_line_points = {3};
+  p.num_axis_lines = 1;
+  p.cell_m = 0.1;
+  p.origin_x_m = p.origin_y_m = -2.0;
+  p.width = p.height = 40;
+  p.cells.assign(1600, 0);
+  p.num_cells = 1600;
+  return p;
+}
+
 void write_sample_map(const std::filesystem::path& path) {
   test::run_sql(path,
                 "PRAGMA journal_mode = WAL;"
@@ -263,6 +329,11 @@ void write_sample_map(const std::filesystem::path& path) {
   store(database, cairn_lcm::snapshot_request_t::GLOBAL_MAP, sample_grid());
   store(database, cairn_lcm::snapshot_request_t::TOPOLOGY, sample_topology());
   store(database, cairn_lcm::snapshot_request_t::HYPOTHESES, sample_hypotheses());
+  store(database, cairn_lcm::snapshot_request_t::VISITS, sample_visits());
+  test::run_sql(path, "CREATE TABLE perception(visit INTEGER PRIMARY KEY, bytes BLOB NOT NULL)");
+  for (std::int64_t visit = 0; visit < sample_visits().num_visits; ++visit) {
+    store_perceived(database, sample_perceived(visit));
+  }
   store(database, cairn_lcm::snapshot_request_t::TRAJECTORY, sample_trajectory());
   sqlite3_close(database);
 }

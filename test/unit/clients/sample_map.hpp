@@ -6,9 +6,11 @@
 #include <cairn_lcm/assertions_t.hpp>
 #include <cairn_lcm/grid_map_t.hpp>
 #include <cairn_lcm/hypotheses_t.hpp>
+#include <cairn_lcm/perceived_place_t.hpp>
 #include <cairn_lcm/status_t.hpp>
 #include <cairn_lcm/topology_t.hpp>
 #include <cairn_lcm/trajectory_t.hpp>
+#include <cairn_lcm/visit_places_t.hpp>
 
 namespace cairn::clients {
 
@@ -22,6 +24,10 @@ namespace cairn::clients {
 [[nodiscard]] cairn_lcm::assertions_t sample_assertions();
 [[nodiscard]] cairn_lcm::trajectory_t sample_trajectory();
 [[nodiscard]] cairn_lcm::status_t sample_status();
+/// Six visits, to the places 1 to 5 and to place 1 once more.
+[[nodiscard]] cairn_lcm::visit_places_t sample_visits();
+/// What was seen there: the gateways of the place, and an alcove that is none.
+[[nodiscard]] cairn_lcm::perceived_place_t sample_perceived(std::int64_t visit);
 
 /// Writes the sample as a map file of format 2, with three visits in the journal.
 void write_sample_map(const std::filesystem::path& path);

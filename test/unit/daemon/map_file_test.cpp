@@ -76,6 +76,20 @@ TEST_F(MapFileTest, GivesTheJournalBackInItsOrder) {
   EXPECT_THAT(journal_of(path()), ElementsAre("s", "s", "s", "v", "s"));
 }
 
+TEST_F(MapFileTest, WhatWasSeenOfAPlaceIsKeptBesideTheJournal) {
+  write_journal(path());
+  {
+    Result<MapFile> map = MapFile::open(path());
+    ASSERT_TRUE(map.ok());
+    ASSERT_TRUE(map->append_perception(0, {1, 2, 3}).ok());
+    ASSERT_TRUE(map->close().ok());
+  }
+  EXPECT_THAT(journal_of(path()), ElementsAre("s", "s", "s", "v", "s"));
+  Result<MapFile> map = MapFile::open(path());
+  EXPECT_THAT(*map->read_perception(0), ElementsAre(1, 2, 3));
+  EXPECT_THAT(*map->read_perception(1), ::testing::IsEmpty());
+}
+
 TEST_F(MapFileTest, TheSameExperienceGivesTheSameBytes) {
   write_journal(path("a.cairn"));
   write_journal(path("b.cairn"));

@@ -44,7 +44,7 @@ TEST(MapMaker, ItsDocumentsAreMessages) {
   state.topology_revision = 4;
   maker.draw(state);
   const Documents documents = maker.documents(state, {0, 42});
-  EXPECT_THAT(documents.bytes, SizeIs(4));
+  EXPECT_THAT(documents.bytes, SizeIs(5));
   const auto topology = wire::from_document<cairn_lcm::topology_t>(
       documents.bytes.at(cairn_lcm::snapshot_request_t::TOPOLOGY));
   ASSERT_TRUE(topology.ok());

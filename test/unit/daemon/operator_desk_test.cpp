@@ -157,5 +157,23 @@ TEST_F(OperatorDeskTest, AMapWithoutVisitsExplainsNothing) {
   EXPECT_EQ(answer(request, time_of_utime(1), engine->get()).result.code, result_t::NOT_FOUND);
 }
 
+TEST_F(OperatorDeskTest, OfAVisitOfWhichNothingWasKeptTheGatewaysAreShown) {
+  open();
+  cairn_lcm::perception_request_t request{};
+  request.visit = 5;
+  const cairn_lcm::perception_t seen = answer(request, engine_.get());
+  ASSERT_EQ(seen.result.code, result_t::OK) << seen.result.reason;
+  EXPECT_EQ(seen.perceived.visit, 5);
+  EXPECT_EQ(seen.perceived.place_id, places()[5]);
+  ASSERT_EQ(seen.perceived.num_openings, 2);
+  EXPECT_EQ(seen.perceived.openings[1].gateway, 1);
+  EXPECT_EQ(seen.perceived.openings[1].reason, "no reason was kept");
+
+  request.visit = kVisits;
+  const cairn_lcm::perception_t none = answer(request, engine_.get());
+  EXPECT_EQ(none.result.code, result_t::NOT_FOUND);
+  EXPECT_THAT(none.result.reason, HasSubstr("there is no visit 7"));
+}
+
 }  // namespace
 }  // namespace cairn

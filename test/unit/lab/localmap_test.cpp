@@ -1,4 +1,5 @@
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -71,6 +72,36 @@ TEST(LabLocalmap, TracksALogAndJudgesItByRelations) {
   EXPECT_EQ(json["relations"]["near_and_sure"]["relations"], 2);
   EXPECT_THAT(test::content_of(trajectory), HasSubstr("\n110.000000 "));
   EXPECT_THAT(test::content_of(png), HasSubstr("PNG"));
+}
+
+TEST(LabLocalmap, DrawsEveryVisitIntoAFolder) {
+  const TemporaryFolder folder;
+  const std::string log = (folder / "a.clf").string();
+  write_file(log, carmen_log());
+  const Ran ran = run({"localmap", log, "--places", (folder / "places").string()});
+  EXPECT_EQ(ran.status, 0) << ran.errors;
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "places"));
+  EXPECT_EQ(run({"localmap", log, "--places", log}).status, 64) << "it is read";
+  write_file((folder / "taken").string(), "a file");
+  EXPECT_EQ(run({"localmap", log, "--places", (folder / "taken").string()}).status, 73);
+}
+
+TEST(LabPlaces, PrintsVisitsAndDrawsThemOnASheet) {
+  const TemporaryFolder folder;
+  const std::string log = (folder / "a.clf").string();
+  const std::string png = (folder / "a.png").string();
+  write_file(log, carmen_log());
+  const Ran ran = run({"places", log, "--json", "--png", png});
+  ASSERT_EQ(ran.status, 0) << ran.errors;
+  const Json json = Json::parse(ran.output);
+  EXPECT_EQ(json["scans"], 11);
+  ASSERT_FALSE(json["poses"].empty());
+  for (const Json& pose : json["poses"]) {
+    EXPECT_GE(pose["distinctiveness"].get<double>(), 0.0);
+    EXPECT_LE(pose["distinctiveness"].get<double>(), 1.0);
+  }
+  EXPECT_THAT(test::content_of(png), HasSubstr("PNG"));
+  EXPECT_EQ(run({"places", log, "--frob"}).status, 64);
 }
 
 TrackedPose tracked(double time_s, const Pose2& pose, bool is_of_scan) {

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "place/island.hpp"
 #include "place/place_options.hpp"
 #include "star/isomorphism.hpp"
 
@@ -73,12 +72,6 @@ TEST(Gateway, KeepsItsShapeInAnotherFrame) {
   EXPECT_NEAR(moved.outward_bearing_rad, 1.7, 1e-12);
   EXPECT_NEAR((moved.basis_points[0] - moved.basis_points[1]).norm(), 2.0, 1e-12);
   EXPECT_NEAR(distance_beyond_m(moved, T_b_a * Vector2d::Zero()), -2.0, 1e-12);
-}
-
-TEST(Island, ACorridorTellsNothingAlongItAndARoomTellsAll) {
-  EXPECT_NEAR(distinctiveness({{0.0, 1.0}, {0.0, -1.0}}), 0.0, 1e-12);
-  EXPECT_NEAR(distinctiveness({{0.0, 1.0}, {1.0, 0.0}}), 1.0, 1e-12);
-  EXPECT_EQ(distinctiveness({}), 0.0);
 }
 
 TEST(PlaceOptions, NameEveryFieldThatIsOutOfRange) {

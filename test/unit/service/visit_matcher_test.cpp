@@ -149,6 +149,19 @@ TEST_F(ReturnTest, AVisitThatSharesNoGatewayWithItsPlaceIsHeldByDeadReckoning) {
   EXPECT_NEAR(held.mean.y(), 0.0, 1e-6);
 }
 
+TEST_F(ReturnTest, DeadReckoningSpeaksAgainstAVisitWithoutCommonGatewayFarFromItsPlace) {
+  EXPECT_EQ(matcher_.chi2_of_unmatched(map_with_return({0, 1})), 0.0);
+  EXPECT_LT(matcher_.chi2_of_unmatched(map_with_return({-1, -1})), 0.1) << "0.1 m away";
+}
+
+TEST_F(VisitMatcherTest, DeadReckoningSpeaksAgainstAPlaceOutOfReach) {
+  for (const Vector2d& at :
+       {Vector2d(0, 0), Vector2d(9, 0), Vector2d(9, -9), Vector2d(29, 0), Vector2d(40, 0)}) {
+    visit(at);
+  }
+  EXPECT_GT(matcher_.chi2_of_unmatched(map_with_return({-1, -1})), 9.0) << "20 m away";
+}
+
 TEST_F(ReturnTest, TheWayPastAVisitThatSharesNoGatewayHoldsItsNeighboursTogether) {
   const TopologicalMap map = map_with_return({-1, -1});
   const std::vector<TravelConstraint> constraints = matcher_.constraints(map);

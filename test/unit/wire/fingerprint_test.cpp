@@ -37,6 +37,10 @@ TEST(Fingerprints, AreWhatTheyWere) {
       CAIRN_GOLDEN(cairn_lcm::map_delta_t, 0x9439777c492dff7f),
       CAIRN_GOLDEN(cairn_lcm::name_request_t, 0xcf95b9ea3e2c9f7a),
       CAIRN_GOLDEN(cairn_lcm::odometry_t, 0x1ab2679132ee7bc1),
+      CAIRN_GOLDEN(cairn_lcm::opening_t, 0xb9f3f3229f2501bb),
+      CAIRN_GOLDEN(cairn_lcm::perceived_place_t, 0x063059a640b946c9),
+      CAIRN_GOLDEN(cairn_lcm::perception_request_t, 0x982b121f3517bc45),
+      CAIRN_GOLDEN(cairn_lcm::perception_t, 0xca297bc8e5e3a9ff),
       CAIRN_GOLDEN(cairn_lcm::place_event_t, 0x2fa5e4157d00aca3),
       CAIRN_GOLDEN(cairn_lcm::place_ref_t, 0xb66ad4c6ca7d18bb),
       CAIRN_GOLDEN(cairn_lcm::place_t, 0xce4b584ff1e653cb),
@@ -49,10 +53,11 @@ TEST(Fingerprints, AreWhatTheyWere) {
       CAIRN_GOLDEN(cairn_lcm::snapshot_chunk_t, 0xb25d9c966c0de137),
       CAIRN_GOLDEN(cairn_lcm::snapshot_request_t, 0xab58f68426f09869),
       CAIRN_GOLDEN(cairn_lcm::sonar_ring_t, 0x2e090798c624ed21),
-      CAIRN_GOLDEN(cairn_lcm::status_t, 0xeb7255f74475dff9),
+      CAIRN_GOLDEN(cairn_lcm::status_t, 0xd70fd02675eaf4e4),
       CAIRN_GOLDEN(cairn_lcm::tile_t, 0xb87e5a344b6a8dfb),
       CAIRN_GOLDEN(cairn_lcm::topology_t, 0xd6dca346ee317a9d),
       CAIRN_GOLDEN(cairn_lcm::trajectory_t, 0x6fb8b1443a8c148f),
+      CAIRN_GOLDEN(cairn_lcm::visit_places_t, 0x83f45af9cc639abc),
   };
   for (const Golden& type : all) {
     EXPECT_EQ(static_cast<std::uint64_t>(type.fingerprint()), type.expected) << type.name;
