@@ -166,9 +166,12 @@ int track(const LocalmapRequest& request, const Streams& streams) {
   if (!run.damage.empty()) {
     throw Failure(ExitCode::kBadData, request.log + ": " + run.damage);
   }
-  if (report && report->all.relations == 0) {
+  if (report && report->all.relations < report->missing) {
     throw Failure(ExitCode::kBadData,
-                  request.relations_file + ": no relation has both ends in the log");
+                  request.relations_file + ": expected most relations to have " +
+                      "both ends in the log, " + grouped(report->all.relations) + " of " +
+                      grouped(report->all.relations + report->missing) +
+                      " have; are they of another log?");
   }
   return 0;
 }

@@ -148,7 +148,8 @@ OptionObject describe(LpmOptions* lpm) {
               "The map takes a scan after this travel,")
       .number("insert_every_rad", &lpm->insert_every_rad, {0, 3.2}, "or after this turn.")
       .integer("refusals_before_restart", &lpm->refusals_before_restart, {1, 1000},
-               "So many refused matches in a row: the local map starts afresh.");
+               "So many refused matches in a row: the local map is drawn anew around the robot, or "
+               "starts afresh where the way is not known, either.");
   return object;
 }
 

@@ -85,12 +85,13 @@ struct LpmOptions {
   ScanMatchOptions match;
   MatcherKind matcher = MatcherKind::kCorrelative;
   WallOrientationOptions wall_orientation;
-  ParticleOptions particles;        ///< Where `matcher` says so.
-  double insert_every_m = 0.2;      ///< The map takes a scan after this travel, [0, 5]
-  double insert_every_rad = 0.2;    ///< or after this turn. [0, 3.2]
-  double renewal_travel_m = 8.0;    ///< Travel after which the map is another one: per renewal the
-                                    ///< error of one match adds to dead reckoning. > 0
-  int refusals_before_restart = 5;  ///< So many in a row: the map starts afresh. [1, 1000]
+  ParticleOptions particles;      ///< Where `matcher` says so.
+  double insert_every_m = 0.2;    ///< The map takes a scan after this travel, [0, 5]
+  double insert_every_rad = 0.2;  ///< or after this turn. [0, 3.2]
+  double renewal_travel_m = 8.0;  ///< Travel after which the map is another one: per renewal the
+                                  ///< error of one match adds to dead reckoning. > 0
+  /// So many in a row: the map is drawn anew around the robot, or starts afresh. [1, 1000]
+  int refusals_before_restart = 5;
 };
 
 /// Names every field that is out of range, with its value.

@@ -50,6 +50,17 @@ std::string carmen_log() {
   return log.str();
 }
 
+TEST(LabLocalmap, RelationsMostOfWhichHaveNoPoseAreOfAnotherLog) {
+  const TemporaryFolder folder;
+  const std::string log = (folder / "a.clf").string();
+  const std::string relations = (folder / "b.relations").string();
+  write_file(log, carmen_log());
+  write_file(relations, "100 110 2 0 0 0 0 0\n502 506 0.8 0 0 0 0 0\n500 501 0 0 0 0 0 0\n");
+  const Ran ran = run({"localmap", log, "--relations", relations});
+  EXPECT_EQ(ran.status, 65);
+  EXPECT_THAT(ran.errors, HasSubstr("1 of 3 have"));
+}
+
 TEST(LabLocalmap, TracksALogAndJudgesItByRelations) {
   const TemporaryFolder folder;
   const std::string log = (folder / "a.clf").string();
