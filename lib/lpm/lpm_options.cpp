@@ -22,7 +22,7 @@ std::optional<MatcherKind> matcher_kind_of(std::string_view name) {
 Status validate(const ParticleOptions& options) {
   return Validator("lpm.particles")
       .within("least_count", options.least_count, 20, 100'000)
-      .within("greatest_count", options.greatest_count, options.least_count, 100'000)
+      .within("greatest_count", options.greatest_count, 20, 100'000)
       .positive("bin_m", options.bin_m)
       .positive("bin_rad", options.bin_rad)
       .within("kld_error", options.kld_error, 1e-3, 1.0)

@@ -221,15 +221,5 @@ TEST(LpmOptions, NameEveryFieldThatIsOutOfRange) {
   EXPECT_THAT(status.error().message, ::testing::HasSubstr("lpm.match.min_returns"));
 }
 
-TEST(LpmOptionsTest, NoMoreParticlesAreTheLeastThanTheGreatest) {
-  LpmOptions options;
-  options.particles.least_count = 500;
-  options.particles.greatest_count = 400;
-  const Status status = validate(options);
-  ASSERT_FALSE(status.ok());
-  EXPECT_NE(status.error().message.find("greatest_count"), std::string::npos)
-      << status.error().message;
-}
-
 }  // namespace
 }  // namespace cairn
