@@ -8,6 +8,7 @@
 #include "bench/lab/building_score.hpp"
 #include "clients/common/progress.hpp"
 #include "clients/common/text.hpp"
+#include "clients/common/within.hpp"
 
 namespace cairn::lab {
 namespace {
@@ -101,6 +102,7 @@ void add_buildings_command(CLI::App& app, const Streams& streams, int* status) {
       ->check(CLI::Range(1, 10'000))
       ->capture_default_str();
   command->add_option("--seed", request->first_seed, "Of the first building; the others follow")
+      ->check(clients::within(0.0, clients::kMostSeed))
       ->capture_default_str();
   command->add_option("--travels", request->travels, "Corridors driven in each")
       ->check(CLI::Range(1, 10'000))

@@ -11,6 +11,7 @@
 #include "bench/lab/log_feed.hpp"
 #include "clients/common/failure.hpp"
 #include "clients/common/text.hpp"
+#include "clients/common/within.hpp"
 #include "service/mapping_service.hpp"
 
 namespace cairn::lab {
@@ -168,7 +169,7 @@ void add_closures_command(CLI::App& app, const Streams& streams, int* status) {
   command
       ->add_option("--same", request->same_m,
                    "Visits are to one place if by the reference they lie within this, m")
-      ->check(CLI::Range(0.1, 100.0))
+      ->check(clients::within(0.1, 100.0))
       ->capture_default_str();
   command->add_flag("--why", request->says_why,
                     "Of each wrong visit all that it might have been to the map, and what decided");

@@ -16,6 +16,7 @@
 #include "bench/lab/recognition_pairs.hpp"
 #include "bench/lab/recognition_picture.hpp"
 #include "clients/common/text.hpp"
+#include "clients/common/within.hpp"
 
 namespace cairn::lab {
 namespace {
@@ -251,7 +252,9 @@ void add_recognition_command(CLI::App& app, const Streams& streams, int* status)
                    "Buildings to learn from, and as many others to judge")
       ->check(CLI::Range(1, 10'000))
       ->capture_default_str();
-  command->add_option("--seed", request->seed, "Of the first building")->capture_default_str();
+  command->add_option("--seed", request->seed, "Of the first building")
+      ->check(clients::within(0.0, clients::kMostSeed))
+      ->capture_default_str();
   command
       ->add_option("--png", request->png_file, "Draw false and missed matches over the threshold")
       ->type_name("FILE");

@@ -14,6 +14,7 @@
 #include "bench/lab/text.hpp"
 #include "clients/common/failure.hpp"
 #include "clients/common/text.hpp"
+#include "clients/common/within.hpp"
 #include "grid/medial_axis.hpp"
 
 namespace cairn::lab {
@@ -240,7 +241,7 @@ void add_rooms_command(CLI::App& app, const Streams& streams, int* status) {
   };
   command->add_option("--cell", request->cell_m, "Side of a pixel")
       ->type_name("M")
-      ->check(CLI::Range(0.001, 10.0))
+      ->check(clients::within(0.001, 10.0))
       ->capture_default_str();
   number("--max-line", &request->options.max_line_m, "M", "A wider opening parts no regions");
   number("--max-narrowing", &request->options.max_narrowing, "SHARE",

@@ -1,5 +1,6 @@
 #include "clients/cairn/map_text.hpp"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -145,13 +146,17 @@ void print_status(std::ostream& out, const cairn_lcm::status_t& status) {
 }
 
 void print_places(std::ostream& out, const cairn_lcm::topology_t& topology) {
+  const auto on_one_line = [](std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+  };
   const std::map<Gateway, std::string> leads = leads_of(topology);
   Table table({"id", "name", "x_m", "y_m", "heading_deg", "visits", "gateways", "star"});
   for (const cairn_lcm::place_t& place : topology.places) {
     table.add({std::to_string(place.id) + (place.id == topology.at_place ? "*" : ""),
                place.name.empty() ? "-" : printable(place.name), fixed(place.x_m, 2),
                fixed(place.y_m, 2), degrees(place.theta_rad), std::to_string(place.num_visits),
-               gateways_text(place, leads), printable(place.star)});
+               gateways_text(place, leads), printable(on_one_line(place.star))});
   }
   table.print(out);
 }

@@ -9,6 +9,7 @@
 #include "clients/common/failure.hpp"
 #include "clients/common/map_file.hpp"
 #include "clients/common/text.hpp"
+#include "clients/common/within.hpp"
 
 namespace cairn::clients {
 namespace {
@@ -44,7 +45,7 @@ void add_link_options(CLI::App& command, LinkOptions* link) {
                      "Bus of the daemon [LCM_DEFAULT_URL, else multicast on this machine]");
   command.add_option("--timeout", link->timeout_s, "Seconds to wait for a daemon")
       ->capture_default_str()
-      ->check(CLI::Range(0.05, 3600.0));
+      ->check(within(0.05, 3600.0));
 }
 
 void add_map_file(CLI::App& command, SourceOptions* options) {

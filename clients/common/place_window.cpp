@@ -170,7 +170,7 @@ void draw_window(const perceived_place_t& place, const Window& window, Canvas* c
     draw_opening(place, i, window, canvas);
   }
   draw_robot(place.entry_m_rad, "in", window, canvas);
-  draw_robot(place.exit_m_rad, "out", window, canvas);
+  draw_robot(place.exit_m_rad, place.departure_gateway < 0 ? "here" : "out", window, canvas);
 }
 
 void draw_scale(const Window& window, Canvas* canvas) {

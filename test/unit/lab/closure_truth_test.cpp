@@ -1,7 +1,10 @@
 #include "bench/lab/closure_truth.hpp"
 
+#include <sstream>
+
 #include <gmock/gmock.h>
 
+#include "bench/lab/program.hpp"
 #include "clients/common/failure.hpp"
 #include "support/files.hpp"
 
@@ -97,6 +100,25 @@ TEST(Reference, AFileWithoutPosesIsNone) {
   EXPECT_THAT(
       [&] { static_cast<void>(read_reference(folder / "none.txt")); },
       Throws<clients::Failure>(Property(&clients::Failure::what, HasSubstr("cannot be read"))));
+}
+
+TEST(ClosuresCommand, ADistanceThatIsNoNumberIsAUsageError) {
+  for (const char* const same : {"nan", "-1", "1e9", "far"}) {
+    std::ostringstream out;
+    std::ostringstream err;
+    EXPECT_EQ(run_lab({"closures", "a.clf", "--reference", "a.txt", "--same", same}, out, err), 64)
+        << same;
+    EXPECT_THAT(err.str(), HasSubstr("--same")) << same;
+  }
+}
+
+TEST(BuildingsCommand, ASeedBeyondAllSeedsIsAUsageError) {
+  for (const char* const seed : {"-1", "99999999999999999999999", "nan", "one"}) {
+    std::ostringstream out;
+    std::ostringstream err;
+    EXPECT_EQ(run_lab({"buildings", "--seed", seed}, out, err), 64) << seed;
+    EXPECT_THAT(err.str(), HasSubstr("--seed")) << seed;
+  }
 }
 
 }  // namespace
