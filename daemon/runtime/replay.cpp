@@ -248,6 +248,14 @@ Status check_is_new(const std::string& map_file) {
   return {};
 }
 
+/// The file and what SQLite keeps beside it.
+void remove_map(const std::string& map_file) {
+  for (const char* const ending : {"", "-wal", "-shm"}) {
+    std::error_code ignored;
+    std::filesystem::remove(map_file + ending, ignored);
+  }
+}
+
 void complain(const std::string& message) {
   static_cast<void>(std::fprintf(stderr, "cairnd: %s\n", message.c_str()));
 }
@@ -297,6 +305,9 @@ ExitCode replay(const DaemonOptions& options,
   if (replay.tally().scans == 0) {
     complain("no scan in " + logs.front() + (logs.size() > 1 ? " and the others" : "") +
              ", on any channel that the configuration names as a laser's");
+    // Nothing is in it, and it would stand in the way of the next replay.
+    engine->reset();
+    remove_map(map_file);
     return ExitCode::kBadData;
   }
   return is_sound ? ExitCode::kOk : ExitCode::kBadData;

@@ -1,5 +1,6 @@
 // Replays of logs: the same twice, damaged ones, and recorded ones.
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -77,6 +78,8 @@ TEST_F(ReplayTest, ALogWithoutScansIsBadData) {
   const Finished result = replay((folder_ / "odometry.clf").string(), "a");
   EXPECT_EQ(result.status, 65);
   EXPECT_THAT(result.errors, HasSubstr("no scan in"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a")) << "it would stand in the next one's way";
+  EXPECT_EQ(replay(simulated("loop"), "a").status, 0);
 }
 
 TEST_F(ReplayTest, ABrokenCarmenLineIsToldWithItsNumber) {
