@@ -47,7 +47,8 @@ class Daemon {
                  {static_cast<std::size_t>(options.queued_readings), options.commit_every_s, 1.0,
                   options.service.global_map.tile_cells},
                  wakeup_),
-        solver_(options.service.global_map, options.service.path, wakeup_),
+        solver_(
+            options.service.refinement, options.service.global_map, options.service.path, wakeup_),
         publisher_(
             bus,
             new_boot_id(),
@@ -94,7 +95,8 @@ class Daemon {
     take_reports();
     solver_.stop();
     MapMaker map_maker(options_.service.global_map);
-    const std::shared_ptr<const MapState> state = engine->service().state();
+    MapRefiner map_refiner(options_.service.refinement);
+    const std::shared_ptr<const MapState> state = map_refiner.refined(engine->service().state());
     map_maker.draw(*state);
     engine->store(map_maker.documents(*state, {0, engine->map_id()}));
     const Status status = engine->close();

@@ -84,11 +84,15 @@ void Publisher::publish(const MappingReport& report) {
   map_id_ = report.map_id;
   for (const MappedFix& fix : report.fixes) {
     const bool is_known = state_ != nullptr && state_->hypothesis >= 0;
-    bus_.publish("CAIRN_POSE", to_pose(fix.fix, is_known ? &fix.T_global_robot : nullptr,
-                                       state_.get(), sender()));
+    // In the map that clients have: a newer one is still being refined.
+    const GaussianPose T_global_robot{
+        is_known ? state_->T_global_lpm * fix.fix.T_lpm_robot : Pose2(),
+        fix.T_global_robot.covariance};
+    bus_.publish("CAIRN_POSE",
+                 to_pose(fix.fix, is_known ? &T_global_robot : nullptr, state_.get(), sender()));
   }
   if (report.state != nullptr) {
-    publish_state(report.state);
+    newest_revision_ = report.state->topology_revision;
   }
   if (report.answer) {
     publish(*report.answer);
@@ -182,6 +186,8 @@ void Publisher::publish_local_map(const wire::ReplicatedGrid& local_map) {
 }
 
 void Publisher::publish(const Drawing& drawing, const GlobalMapOptions& options) {
+  publish_state(drawing.state);
+  answer_held();
   if (!drawing.changed.empty()) {
     replication_.change(steady_us(), wall_utime(), What::GLOBAL_MAP,
                         {map_id_, options.cell_m, options.tile_cells, drawing.changed});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -42,7 +43,7 @@ class Publisher {
   /// @return false where LCM refuses
   [[nodiscard]] bool subscribe();
 
-  /// What mapping made known.
+  /// What mapping made known; its state is published when it has been refined and drawn.
   void publish(const MappingReport& report);
   void publish(const Drawing& drawing, const GlobalMapOptions& options);
   void publish(const cairn_lcm::plan_t& plan);
@@ -68,6 +69,8 @@ class Publisher {
   void on_map_request(const Request& request);
   void publish(const MapAnswer& answer);
   void on_snapshot(const cairn_lcm::snapshot_request_t& request);
+  [[nodiscard]] bool is_behind() const;
+  void answer_held();
   void on_delta(const cairn_lcm::delta_request_t& request);
   void on_events(const cairn_lcm::event_request_t& request);
   void on_status(const cairn_lcm::status_t& status);
@@ -92,7 +95,9 @@ class Publisher {
   EventBook events_;
   LocalisationOptions localisation_;
   LocalisationHealth health_;
-  std::shared_ptr<const MapState> state_;
+  std::shared_ptr<const MapState> state_;  ///< As clients have it.
+  std::int64_t newest_revision_ = -1;      ///< Of the map; what clients have may be behind it.
+  std::deque<cairn_lcm::snapshot_request_t> held_;  ///< Until clients can have the newest.
   std::int64_t foreign_daemons_ = 0;
   std::int64_t foreign_boot_id_ = 0;
   std::int64_t foreign_heard_us_ = 0;

@@ -13,6 +13,7 @@ using Code = cairn_lcm::result_t;
 
 constexpr std::size_t kMaxRequestBytes = 16 * 1024;
 constexpr std::size_t kMostUnderWay = 256;
+constexpr std::size_t kMostHeld = 64;
 constexpr std::int64_t kLost_us = 60'000'000;  ///< What is under way for longer is asked for anew.
 
 }  // namespace
@@ -98,7 +99,30 @@ void Publisher::answer(const cairn_lcm::rpc_header_t& request,
   bus_.publish("CAIRN_RESULT", result);
 }
 
+/// Whether the map that clients have is older than what they may have been told, a name given or a
+/// visit made: the newest is being refined.
+bool Publisher::is_behind() const {
+  return newest_revision_ >= 0 &&
+         (state_ == nullptr || state_->topology_revision < newest_revision_);
+}
+
+void Publisher::answer_held() {
+  if (!is_behind()) {
+    for (const cairn_lcm::snapshot_request_t& request : std::exchange(held_, {})) {
+      on_snapshot(request);
+    }
+  }
+}
+
 void Publisher::on_snapshot(const cairn_lcm::snapshot_request_t& request) {
+  const bool is_of_a_map = request.what != cairn_lcm::snapshot_request_t::LPM;
+  if (is_of_a_map && is_behind()) {
+    held_.push_back(request);
+    if (held_.size() > kMostHeld) {
+      held_.pop_front();  // The client will ask again.
+    }
+    return;
+  }
   if (!replication_.on_request(steady_us(), request)) {
     answer(request.header, Code::NOT_FOUND, "NOT_FOUND",
            "there is nothing of kind " + std::to_string(request.what) + " yet");

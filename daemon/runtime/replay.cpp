@@ -11,6 +11,7 @@
 #include "runtime/health_status.hpp"
 #include "runtime/map_maker.hpp"
 #include "runtime/progress.hpp"
+#include "service/refined_map.hpp"
 #include "wire/log_reader.hpp"
 
 namespace cairn {
@@ -33,6 +34,7 @@ struct Tally {
   std::int64_t first_utime = 0;
   std::int64_t last_utime = 0;
   std::vector<std::string> troubles;
+  double refine_s = 0.0;
   double draw_s = 0.0;
   double store_s = 0.0;
 };
@@ -96,7 +98,10 @@ class Replay {
     progress_.finish();
     Clock::time_point start = Clock::now();
     MapMaker map_maker(options_.service.global_map);
-    const std::shared_ptr<const MapState> state = engine_->service().state();
+    MapRefiner map_refiner(options_.service.refinement);
+    const std::shared_ptr<const MapState> state = map_refiner.refined(engine_->service().state());
+    tally_.refine_s = seconds_since(start);
+    start = Clock::now();
     map_maker.draw(*state);
     tally_.draw_s = seconds_since(start);
     start = Clock::now();
@@ -186,6 +191,7 @@ Json summary_of(const Replay& replay, const Engine& engine, double spent_s) {
             {"places", clock.seconds(Stage::kPlaces)},
             {"topology", clock.seconds(Stage::kTopology)},
             {"layout", clock.seconds(Stage::kLayout)},
+            {"refinement", tally.refine_s},
             {"global_map", tally.draw_s},
             {"storage", tally.store_s}}}};
 }

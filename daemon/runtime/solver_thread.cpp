@@ -6,10 +6,12 @@
 
 namespace cairn {
 
-SolverThread::SolverThread(const GlobalMapOptions& map_options,
+SolverThread::SolverThread(const TrajectoryRefinementOptions& refinement,
+                           const GlobalMapOptions& map_options,
                            const PathOptions& path_options,
                            const Wakeup& wakeup)
-    : map_maker_(map_options),
+    : map_refiner_(refinement),
+      map_maker_(map_options),
       path_options_(path_options),
       wakeup_(wakeup),
       orders_(kMaxWaiting),
@@ -36,12 +38,12 @@ void SolverThread::run() {
 
 SolverThread::Outcome SolverThread::carry_out(const DrawOrder& order) {
   Drawing drawing;
-  drawing.state = order.state;
-  drawing.changed = map_maker_.draw(*order.state);
+  drawing.state = map_refiner_.refined(order.state);
+  drawing.changed = map_maker_.draw(*drawing.state);
   if (order.with_documents) {
-    drawing.documents = map_maker_.documents(*order.state, order.sender);
+    drawing.documents = map_maker_.documents(*drawing.state, order.sender);
   }
-  drawn_ = order.state;
+  drawn_ = drawing.state;
   return drawing;
 }
 

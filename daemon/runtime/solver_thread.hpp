@@ -14,12 +14,13 @@
 #include "runtime/bounded_queue.hpp"
 #include "runtime/map_maker.hpp"
 #include "runtime/wakeup.hpp"
+#include "service/refined_map.hpp"
 
 namespace cairn {
 
 /// The global map after one drawing.
 struct Drawing {
-  std::shared_ptr<const MapState> state;
+  std::shared_ptr<const MapState> state;  ///< What was drawn, refined.
   std::map<wire::TileIndex, wire::TileCells> changed;
   std::optional<Documents> documents;  ///< Where they were asked for.
 };
@@ -35,15 +36,16 @@ struct PlanOrder {
   Sender sender;
 };
 
-/// The thread that draws the global map and plans ways on it, from immutable pictures of the map,
-/// so that neither large maps nor many clients ever delay a scan.
+/// The thread that refines the trajectory, draws the global map and plans ways on it, from
+/// immutable pictures of the map, so that neither large maps nor many clients ever delay a scan.
 class SolverThread {
  public:
   using Outcome = std::variant<Drawing, cairn_lcm::plan_t>;
   static constexpr std::size_t kMaxWaiting = 10;
 
   /// @param wakeup is signalled for every outcome; must outlive this object
-  SolverThread(const GlobalMapOptions& map_options,
+  SolverThread(const TrajectoryRefinementOptions& refinement,
+               const GlobalMapOptions& map_options,
                const PathOptions& path_options,
                const Wakeup& wakeup);
   ~SolverThread();
@@ -65,6 +67,7 @@ class SolverThread {
   Outcome carry_out(const DrawOrder& order);
   Outcome carry_out(const PlanOrder& order);
 
+  MapRefiner map_refiner_;
   MapMaker map_maker_;
   PathOptions path_options_;
   const Wakeup& wakeup_;

@@ -196,6 +196,37 @@ OptionObject describe(LayoutOptions* layout) {
   return object;
 }
 
+OptionObject describe(PatchMatchOptions* matching) {
+  OptionObject object("matching", "Which scans are laid on what.");
+  object
+      .number("patch_reach_m", &matching->patch_reach_m, {0, 10},
+              "Travel before and after the middle of a patch.")
+      .number("patch_every_m", &matching->patch_every_m, {0.1, 10},
+              "Travel between the middles of patches.")
+      .number("apart_m", &matching->apart_m, {0, 1e6},
+              "Travel between patch and scan, so that they are independent.")
+      .number("near_m", &matching->near_m, {0.1, 10}, "A scan is laid on patches no farther away.")
+      .integer("passes", &matching->passes, {1, 20},
+               "It is laid on patches of so many passages, the nearest.")
+      .number("min_score", &matching->min_score, {0, 1},
+              "Share of returns over known cells that must lie on walls.")
+      .number("min_known_share", &matching->min_known_share, {0, 1},
+              "Share of returns that must lie over known cells.");
+  return object;
+}
+
+OptionObject describe(TrajectoryRefinementOptions* refinement) {
+  OptionObject object("refinement", "Aligning the trajectory with what was seen along it.");
+  object
+      .flag("enabled", &refinement->enabled,
+            "If not, the trajectory is as interpolated between the places.")
+      .integer("rounds", &refinement->rounds, {1, 10}, "What lies near what is looked up so often.")
+      .number("tolerance", &refinement->tolerance, {0.001, 1000},
+              "Matches whose squared Mahalanobis distance is so large count a quarter.")
+      .object(describe(&refinement->matching));
+  return object;
+}
+
 OptionObject describe(GlobalMapOptions* map) {
   OptionObject object("global_map", "The global metrical map in tiles.");
   object.number("cell_m", &map->cell_m, {0.01, 1}, "Side of a cell.")
@@ -252,6 +283,7 @@ std::vector<OptionObject> describe(ServiceOptions* options) {
           describe(&options->recognition),
           std::move(topology),
           describe(&options->layout),
+          describe(&options->refinement),
           describe(&options->global_map),
           describe(&options->path)};
 }

@@ -147,7 +147,7 @@ std::vector<TimedPose> with_poses_between(const std::vector<PerceivedScan>& scan
       const std::vector<Pose2> bent = interpolate_travel(
           T_previous_robot, trajectory[i - 1].T_global_robot, trajectory[i].T_global_robot);
       for (std::size_t k = 0; k + 1 < between.size(); ++k) {
-        poses.push_back({between[k].time, bent[k + 1]});
+        poses.push_back({between[k].time, bent[k + 1], false});
       }
     }
     poses.push_back({scans[i].fix.time, trajectory[i].T_global_robot});
@@ -169,6 +169,7 @@ std::vector<MappedPlace> mapped_places(const TopologicalMap& map,
     place.id = p;
     place.T_global_place = {layout.T_global_place[id.index()], layout.covariances[id.index()]};
     place.star = large_scale_text(map.star(id), 0);
+    place.anchor_scan = experience.visits()[map.first_visit(id).index()].anchor_scan;
     for (int g = 0; g < map.gateway_count(id); ++g) {
       const auto index = static_cast<std::size_t>(g);
       place.gateways.push_back({seen[id.index()][index], map.is_pending({id, g}), path_of[index]});
@@ -227,6 +228,30 @@ std::vector<MappedSegment> mapped_segments(const TopologicalMap& map,
     ++segment.travel_count;
   }
   return segments;
+}
+
+std::vector<SamePlace> same_places(const TopologicalMap& map,
+                                   const Experience& experience,
+                                   const VisitMatcher& matcher) {
+  // Frames of places are turned as the lpm frame is.
+  const auto T_place_anchor = [&](const Visit& visit) {
+    const Pose2& T_lpm_robot = experience.scans()[visit.anchor_scan].fix.T_lpm_robot;
+    return GaussianPose{visit.perceived.T_lpm_place.inverse() * T_lpm_robot, Matrix3d::Zero()};
+  };
+  std::vector<SamePlace> same;
+  for (VisitId id{0}; id.value < map.visit_count(); ++id.value) {
+    const VisitId first = map.first_visit(map.at_visit(id).place);
+    if (first == id) {
+      continue;
+    }
+    const Visit& visit = experience.visits()[id.index()];
+    const Visit& known = experience.visits()[first.index()];
+    same.push_back(
+        {known.anchor_scan, visit.anchor_scan,
+         compounded(compounded(inverted(T_place_anchor(known)), matcher.T_place_visit(map, id)),
+                    T_place_anchor(visit))});
+  }
+  return same;
 }
 
 std::vector<HypothesisSummary> summaries(const HypothesisTree& tree, std::size_t count) {

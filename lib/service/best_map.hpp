@@ -46,6 +46,11 @@ struct MetricalMap {
     const PlaceLayout& layout,
     const std::vector<TravelConstraint>& constraints);
 
+/// Where the layout takes two visits to have been to one place: each later visit with the first.
+[[nodiscard]] std::vector<SamePlace> same_places(const TopologicalMap& map,
+                                                 const Experience& experience,
+                                                 const VisitMatcher& matcher);
+
 /// The best hypotheses of the fringe, at most `count`.
 [[nodiscard]] std::vector<HypothesisSummary> summaries(const HypothesisTree& tree,
                                                        std::size_t count);

@@ -25,6 +25,7 @@ bool is_way_unknown(const GaussianPose& motion) {
 }
 
 void Experience::add(PerceivedScan scan) {
+  key_scans_.add(scan.scan, scan.fix.motion);
   scans_.push_back(std::move(scan));
 }
 

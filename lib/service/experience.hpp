@@ -8,6 +8,7 @@
 #include "geometry/gaussian_pose.hpp"
 #include "lpm/local_mapper.hpp"
 #include "place/place_detector.hpp"
+#include "refinement/key_scan.hpp"
 #include "sensing/laser_scan.hpp"
 #include "sensing/odometry.hpp"
 
@@ -67,6 +68,7 @@ class Experience {
   [[nodiscard]] bool is_way_unknown_since_last_visit() const;
 
   [[nodiscard]] const std::vector<PerceivedScan>& scans() const { return scans_; }
+  [[nodiscard]] const KeyScans& key_scans() const { return key_scans_.key_scans(); }
   [[nodiscard]] const std::vector<Visit>& visits() const { return visits_; }
   /// Travel i leads from visit i to visit i + 1.
   [[nodiscard]] const std::vector<Travel>& travels() const { return travels_; }
@@ -75,6 +77,7 @@ class Experience {
   [[nodiscard]] Travel travel_between(const Visit& from, const Visit& to) const;
 
   std::vector<PerceivedScan> scans_;
+  KeyScanChooser key_scans_;
   std::vector<Visit> visits_;
   std::vector<Travel> travels_;
 };

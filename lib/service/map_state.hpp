@@ -10,6 +10,7 @@
 #include "geometry/gaussian_pose.hpp"
 #include "global_map/global_map.hpp"
 #include "place/gateway.hpp"
+#include "refinement/trajectory_refiner.hpp"
 #include "sensing/laser_scan.hpp"
 #include "sensing/time.hpp"
 #include "service/operator_log.hpp"
@@ -20,6 +21,7 @@ namespace cairn {
 struct TimedPose {
   TimePoint time;
   Pose2 T_global_robot;
+  bool is_of_scan = true;  ///< If not, of odometry between scans.
 };
 
 /// A gateway of a place of the best map, in the place frame.
@@ -37,6 +39,7 @@ struct MappedPlace {
   std::string star;  ///< Fig. 3(f) of Kuipers et al., ICRA 2004.
   int visit_count = 0;
   std::vector<MappedGateway> gateways;  ///< Clockwise.
+  std::size_t anchor_scan = 0;          ///< Of the first visit: the robot was near its origin.
 };
 
 /// A path segment of the best map: leaving one place by a gateway leads to another. Or a travel
@@ -92,7 +95,9 @@ struct MapState {
   std::vector<PosedScan> trajectory;         ///< Every scan so far: H(x).
   /// Every scan and every odometry sample between scans, in the order of arrival.
   std::vector<TimedPose> poses;
-  Pose2 T_global_lpm;  ///< Where the frame of the local map lies now.
+  Pose2 T_global_lpm;                  ///< Where the frame of the local map lies now.
+  KeyScans key_scans;                  ///< Of the trajectory.
+  std::vector<SamePlace> same_places;  ///< What ties the trajectory to itself.
 };
 
 }  // namespace cairn

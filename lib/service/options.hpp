@@ -9,6 +9,7 @@
 #include "lpm/map_match_options.hpp"
 #include "place/place_options.hpp"
 #include "planning/path.hpp"
+#include "refinement/trajectory_refiner.hpp"
 #include "sensing/scan_joiner.hpp"
 #include "service/relocaliser.hpp"
 #include "topology/topology_options.hpp"
@@ -28,6 +29,7 @@ struct ServiceOptions {
   /// separated by blanks; none is the papers' strict tree.
   std::string evidence = "place_match layout";
   LayoutOptions layout;
+  TrajectoryRefinementOptions refinement;
   GlobalMapOptions global_map;
   PathOptions path;
 

@@ -140,6 +140,7 @@ std::shared_ptr<const MapState> MappingService::Pipeline::state() const {
   state->topology_revision = revision_;
   state->visit_count = static_cast<std::int64_t>(experience_.visits().size());
   state->T_global_lpm = metrical_.T_global_lpm;
+  state->key_scans = experience_.key_scans();
   state->trajectory = trajectory();
   state->poses = with_poses_between(scans, state->trajectory);
   if (!scans.empty()) {
@@ -163,6 +164,7 @@ void MappingService::Pipeline::tell_best_map(MapState* state) const {
     state->place_of_visit.push_back(best.map.at_visit(VisitId{v}).place.value);
   }
   state->places = mapped_places(best.map, experience_, metrical_);
+  state->same_places = same_places(best.map, experience_, matcher_);
   for (const auto& [visit, name] : names_) {
     if (visit.index() < state->place_of_visit.size()) {
       state->places[static_cast<std::size_t>(state->place_of_visit[visit.index()])].name = name;

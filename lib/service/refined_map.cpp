@@ -1,0 +1,92 @@
+#include "service/refined_map.hpp"
+
+#include <map>
+#include <utility>
+
+#include "layout/trajectory.hpp"
+
+namespace cairn {
+namespace {
+
+/// The poses between scans, bent along with those of the scans.
+void follow_scans(const std::vector<Pose2>& T_global_robot, std::vector<TimedPose>* poses) {
+  std::size_t scan = 0;
+  std::vector<Pose2> run;  // from one scan to the next
+  std::size_t first = 0;   // of `run` in `poses`
+  for (std::size_t i = 0; i < poses->size(); ++i) {
+    run.push_back((*poses)[i].T_global_robot);
+    if (!(*poses)[i].is_of_scan) {
+      continue;
+    }
+    if (scan > 0) {
+      const std::vector<Pose2> bent =
+          interpolate_travel(run, T_global_robot[scan - 1], T_global_robot[scan]);
+      for (std::size_t k = 1; k + 1 < bent.size(); ++k) {
+        (*poses)[first + k].T_global_robot = bent[k];
+      }
+    }
+    run.assign(1, (*poses)[i].T_global_robot);
+    first = i;
+    (*poses)[i].T_global_robot = T_global_robot[scan++];
+  }
+}
+
+void move_places(const std::vector<PosedScan>& before,
+                 const std::vector<Pose2>& T_global_robot,
+                 MapState* state) {
+  for (MappedPlace& place : state->places) {
+    const std::size_t anchor = place.anchor_scan;
+    if (anchor < T_global_robot.size()) {
+      place.T_global_place.mean = T_global_robot[anchor] * before[anchor].T_global_robot.inverse() *
+                                  place.T_global_place.mean;
+    }
+  }
+  for (MappedSegment& segment : state->segments) {
+    segment.T_from_to.mean =
+        state->places[static_cast<std::size_t>(segment.from_place)].T_global_place.mean.inverse() *
+        state->places[static_cast<std::size_t>(segment.to_place)].T_global_place.mean;
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const MapState> MapRefiner::refined(const std::shared_ptr<const MapState>& state) {
+  std::vector<Pose2> T_global_robot;
+  T_global_robot.reserve(state->trajectory.size());
+  for (const PosedScan& posed : state->trajectory) {
+    T_global_robot.push_back(posed.T_global_robot);
+  }
+  const Result<RefinedTrajectory> trajectory =
+      refiner_.refine(T_global_robot, state->key_scans, state->same_places);
+  auto refined = std::make_shared<MapState>(*state);
+  if (trajectory && !T_global_robot.empty()) {
+    const std::vector<Pose2>& moved = trajectory->T_global_robot;
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      refined->trajectory[i].T_global_robot = moved[i];
+    }
+    follow_scans(moved, &refined->poses);
+    move_places(state->trajectory, moved, refined.get());
+    refined->T_global_lpm = moved.back() * T_global_robot.back().inverse() * state->T_global_lpm;
+  }
+  refined->poses = one_pose_for_each_time(refined->poses);
+  return refined;
+}
+
+std::vector<TimedPose> one_pose_for_each_time(const std::vector<TimedPose>& poses) {
+  std::map<TimePoint, std::size_t> chosen;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const auto [at, is_new] = chosen.try_emplace(poses[i].time, i);
+    if (!is_new && (poses[i].is_of_scan || !poses[at->second].is_of_scan)) {
+      at->second = i;
+    }
+  }
+  std::vector<TimedPose> unique;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (chosen.at(poses[i].time) == i) {
+      unique.push_back(poses[i]);
+    }
+  }
+  return unique;
+}
+
+}  // namespace cairn
