@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/check.hpp"
+#include "layout/exclusion.hpp"
 #include "service/pipeline.hpp"
 
 namespace cairn {
@@ -25,9 +26,11 @@ Evidence MappingService::Pipeline::evidence() const {
     } else {
       // The densities' normalisation is left out: it is the same for all maps of one experience.
       evidence.layout = [this](const TopologicalMap& map) {
+        const std::vector<TravelConstraint> travels = matcher_.constraints(map);
         const Result<PlaceLayout> layout =
-            solve_layout(map.place_count(), matcher_.constraints(map), options_.layout);
-        return layout ? -0.5 * (layout->chi2 + matcher_.chi2_of_unmatched(map))
+            solve_layout(map.place_count(), travels, options_.layout);
+        return layout ? -0.5 * (layout->chi2 + matcher_.chi2_of_unmatched(map)) +
+                            log_exclusion(*layout, travels, {options_.place.same_spot_m})
                       : -std::numeric_limits<double>::infinity();
       };
     }
