@@ -146,6 +146,30 @@ std::vector<Matrix3d> NormalEquations::place_covariances() const {
   return covariances;
 }
 
+Matrix3d NormalEquations::covariance_of_prediction(const TravelResidual& travel,
+                                                   const PlaceVector& places) const {
+  Matrix3d by_from;
+  Matrix3d by_to;
+  static_cast<void>(travel.at(places[at(travel.from)], places[at(travel.to)], &by_from, &by_to));
+  Eigen::MatrixXd gradients = Eigen::MatrixXd::Zero(descent_.size(), 3);
+  const auto rows_of = [](int place) { return 3 * static_cast<Eigen::Index>(place) - 3; };
+  if (travel.from > 0) {
+    gradients.middleRows<3>(rows_of(travel.from)) = by_from.transpose();
+  }
+  if (travel.to > 0) {
+    gradients.middleRows<3>(rows_of(travel.to)) = by_to.transpose();
+  }
+  const Eigen::MatrixXd moves = solver_.solve(gradients);
+  Matrix3d covariance = Matrix3d::Zero();
+  if (travel.from > 0) {
+    covariance += by_from * moves.middleRows<3>(rows_of(travel.from));
+  }
+  if (travel.to > 0) {
+    covariance += by_to * moves.middleRows<3>(rows_of(travel.to));
+  }
+  return covariance;
+}
+
 double cost_of(const PlaceVector& places,
                const std::vector<TravelResidual>& travels,
                double outlier_sigmas) {

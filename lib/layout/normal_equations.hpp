@@ -38,6 +38,13 @@ class NormalEquations {
   /// @pre expand_about was true
   [[nodiscard]] std::vector<Matrix3d> place_covariances() const;
 
+  /// The covariance of a whitened residual as all travels together predict it.
+  /// @param travel between two of the places, not a loop at one
+  /// @param places of the expansion
+  /// @pre expand_about was true
+  [[nodiscard]] Matrix3d covariance_of_prediction(const TravelResidual& travel,
+                                                  const PlaceVector& places) const;
+
  private:
   /// Where the three columns of a block of the matrix begin among its values.
   using BlockColumns = std::array<int, 3>;
