@@ -17,6 +17,7 @@ class event_request_t;
 class explain_request_t;
 class explained_step_t;
 class explanation_t;
+class frame_change_t;
 class gateway_t;
 class grid_map_t;
 class hypotheses_t;
@@ -70,7 +71,7 @@ namespace cairn::wire {
 #define CAIRN_STEP "q q q s i s q i q i d i q d s"
 #define CAIRN_GATEWAY "d d d d i q"
 #define CAIRN_PLACE "q s d d d d[=9] s i i {" CAIRN_GATEWAY "}[8]"
-#define CAIRN_SEGMENT "q i q i i i d d d d d[=9]"
+#define CAIRN_SEGMENT "q i q i i i d d d d d[=9] d q"
 #define CAIRN_OPENING "d[=4] d d d d d d d d i i s s"
 #define CAIRN_PERCEIVED                            \
   "q q q q i i d[=3] d[=3] d s i {" CAIRN_OPENING  \
@@ -91,6 +92,7 @@ CAIRN_SIGNATURE(cairn_lcm::event_request_t, CAIRN_RPC_HEADER "q");
 CAIRN_SIGNATURE(cairn_lcm::explain_request_t, CAIRN_RPC_HEADER "i q q q");
 CAIRN_SIGNATURE(cairn_lcm::explained_step_t, CAIRN_STEP);
 CAIRN_SIGNATURE(cairn_lcm::explanation_t, CAIRN_RESULT "q i q q d s q i i {" CAIRN_STEP "}[9]");
+CAIRN_SIGNATURE(cairn_lcm::frame_change_t, "q q q q q d d d d i q[9] d[9] d[9] d[9]");
 CAIRN_SIGNATURE(cairn_lcm::gateway_t, CAIRN_GATEWAY);
 CAIRN_SIGNATURE(cairn_lcm::grid_map_t, "q q q d i i {" CAIRN_TILE "}[5]");
 CAIRN_SIGNATURE(cairn_lcm::hypotheses_t,

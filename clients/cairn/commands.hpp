@@ -46,6 +46,7 @@ void add_hypotheses_command(CLI::App& app, const Streams& streams);
 void add_map_command(CLI::App& app, const Streams& streams);
 void add_name_command(CLI::App& app, const Streams& streams);
 void add_assertion_commands(CLI::App& app, const Streams& streams);
+void add_consistency_command(CLI::App& app, const Streams& streams);
 void add_why_command(CLI::App& app, const Streams& streams);
 void add_path_command(CLI::App& app, const Streams& streams);
 void add_export_command(CLI::App& app, const Streams& streams);

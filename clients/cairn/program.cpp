@@ -31,6 +31,7 @@ void add_commands(CLI::App& app, const Streams& streams) {
   add_map_command(app, streams);
   add_name_command(app, streams);
   add_assertion_commands(app, streams);
+  add_consistency_command(app, streams);
   add_why_command(app, streams);
   add_path_command(app, streams);
   add_export_command(app, streams);

@@ -58,7 +58,9 @@ Json to_json(const cairn_lcm::segment_t& segment) {
           {"dx_m", number(segment.dx_m)},
           {"dy_m", number(segment.dy_m)},
           {"dtheta_rad", number(segment.dtheta_rad)},
-          {"covariance_m2_rad2", matrix(segment.covariance_m2_rad2)}};
+          {"covariance_m2_rad2", matrix(segment.covariance_m2_rad2)},
+          {"disagreement_sigmas", number(segment.disagreement_sigmas)},
+          {"disagreeing_visit", segment.disagreeing_visit}};
 }
 
 Json counters_of(const cairn_lcm::status_t& status) {

@@ -11,6 +11,7 @@
 #include <cairn_lcm/event_request_t.hpp>
 #include <cairn_lcm/explain_request_t.hpp>
 #include <cairn_lcm/explanation_t.hpp>
+#include <cairn_lcm/frame_change_t.hpp>
 #include <cairn_lcm/hypotheses_t.hpp>
 #include <cairn_lcm/laser_scan_t.hpp>
 #include <cairn_lcm/map_delta_t.hpp>
@@ -50,11 +51,12 @@ Names known_names() {
   Names names;
   add<cairn_lcm::assert_request_t, cairn_lcm::assertion_report_t, cairn_lcm::explain_request_t,
       cairn_lcm::explanation_t, cairn_lcm::delta_request_t, cairn_lcm::event_request_t,
-      cairn_lcm::hypotheses_t, cairn_lcm::laser_scan_t, cairn_lcm::map_delta_t,
-      cairn_lcm::odometry_t, cairn_lcm::perception_request_t, cairn_lcm::perception_t,
-      cairn_lcm::place_event_t, cairn_lcm::plan_request_t, cairn_lcm::plan_t, cairn_lcm::pose_t,
-      cairn_lcm::result_t, cairn_lcm::snapshot_chunk_t, cairn_lcm::snapshot_request_t,
-      cairn_lcm::sonar_ring_t, cairn_lcm::status_t, cairn_lcm::topology_t>(&names, "cairn_lcm");
+      cairn_lcm::frame_change_t, cairn_lcm::hypotheses_t, cairn_lcm::laser_scan_t,
+      cairn_lcm::map_delta_t, cairn_lcm::odometry_t, cairn_lcm::perception_request_t,
+      cairn_lcm::perception_t, cairn_lcm::place_event_t, cairn_lcm::plan_request_t,
+      cairn_lcm::plan_t, cairn_lcm::pose_t, cairn_lcm::result_t, cairn_lcm::snapshot_chunk_t,
+      cairn_lcm::snapshot_request_t, cairn_lcm::sonar_ring_t, cairn_lcm::status_t,
+      cairn_lcm::topology_t>(&names, "cairn_lcm");
   add<bot_core::planar_lidar_t, bot_core::pose_t>(&names, "bot_core");
   add<mbot_lcm_msgs::lidar_t, mbot_lcm_msgs::pose2D_t>(&names, "mbot_lcm_msgs");
   add<vulcan_lcm::laser_3dof_t, vulcan_lcm::laser_t, vulcan_lcm::odometry_t>(&names, "vulcan_lcm");

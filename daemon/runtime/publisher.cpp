@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "runtime/planner.hpp"
+#include "transport/frame_change.hpp"
 #include "wire/document.hpp"
 #include "wire/signatures.hpp"
 
@@ -143,9 +144,18 @@ void Publisher::publish(const MapAnswer& answer) {
 }
 
 void Publisher::publish_state(const std::shared_ptr<const MapState>& state) {
-  const std::shared_ptr<const MapState> before = std::exchange(state_, state);
-  if (before != nullptr && before->topology_revision == state->topology_revision) {
-    return;
+  state_ = state;
+  const std::shared_ptr<const MapState> before = told_;
+  std::optional<cairn_lcm::frame_change_t> change;
+  if (before != nullptr) {
+    change = to_frame_change(*before, *state, sender());
+    if (!change && before->topology_revision == state->topology_revision) {
+      return;
+    }
+  }
+  told_ = state;
+  if (change) {
+    bus_.publish("CAIRN_FRAME_CHANGE", *change);
   }
   replication_.documents_changed();
   if (before != nullptr) {

@@ -95,7 +95,8 @@ class Publisher {
   EventBook events_;
   LocalisationOptions localisation_;
   LocalisationHealth health_;
-  std::shared_ptr<const MapState> state_;  ///< As clients have it.
+  std::shared_ptr<const MapState> state_;  ///< As it was drawn last.
+  std::shared_ptr<const MapState> told_;   ///< As clients have it; nearly the same.
   std::int64_t newest_revision_ = -1;      ///< Of the map; what clients have may be behind it.
   std::deque<cairn_lcm::snapshot_request_t> held_;  ///< Until clients can have the newest.
   std::int64_t foreign_daemons_ = 0;

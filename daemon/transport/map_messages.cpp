@@ -57,6 +57,8 @@ cairn_lcm::segment_t to_segment(const MappedSegment& segment) {
   message.dy_m = segment.T_from_to.mean.y();
   message.dtheta_rad = segment.T_from_to.mean.theta();
   put(segment.T_from_to.covariance, message.covariance_m2_rad2);
+  message.disagreement_sigmas = segment.disagreement_sigmas;
+  message.disagreeing_visit = segment.disagreeing_visit;
   return message;
 }
 

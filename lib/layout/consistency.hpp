@@ -33,7 +33,7 @@ struct Agreement {
     const PlaceLayout& layout, const std::vector<TravelConstraint>& travels);
 
 /// The deviate of the standard normal distribution that is exceeded as seldom as a chi2 with 3
-/// degrees of freedom; 0 for what is exceeded half of the time or more. To 1 % (Wilson and
+/// degrees of freedom; 0 for what is exceeded half of the time or more. To 0.05 up to 4 (Wilson and
 /// Hilferty, 1931).
 [[nodiscard]] double normal_deviate_of_chi2(double chi2);
 

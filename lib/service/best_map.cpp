@@ -193,6 +193,7 @@ std::vector<MappedSegment> mapped_segments(const TopologicalMap& map,
     if (map.is_carried(VisitId{v + 1})) {
       continue;
     }
+    const SegmentTravel this_travel{v + 1, travel};
     const GaussianPose& travelled = constraints[travel++].T_from_to;
     const PlaceVisit& visit = experience.visits()[static_cast<std::size_t>(v)].perceived;
     const PlaceVisit& next = experience.visits()[static_cast<std::size_t>(v) + 1].perceived;
@@ -225,6 +226,7 @@ std::vector<MappedSegment> mapped_segments(const TopologicalMap& map,
     MappedSegment& segment = segments[entry->second];
     const double length_m = experience.travels()[static_cast<std::size_t>(v)].length_m;
     segment.length_m = is_new ? length_m : std::min(segment.length_m, length_m);
+    segment.travels.push_back(this_travel);
     ++segment.travel_count;
   }
   return segments;

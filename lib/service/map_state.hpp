@@ -9,6 +9,7 @@
 
 #include "geometry/gaussian_pose.hpp"
 #include "global_map/global_map.hpp"
+#include "layout/place_layout.hpp"
 #include "place/gateway.hpp"
 #include "refinement/trajectory_refiner.hpp"
 #include "sensing/laser_scan.hpp"
@@ -42,6 +43,12 @@ struct MappedPlace {
   std::size_t anchor_scan = 0;          ///< Of the first visit: the robot was near its origin.
 };
 
+/// One travel along a segment.
+struct SegmentTravel {
+  int visit = -1;              ///< In which it ended.
+  std::size_t constraint = 0;  ///< Its number in MapState::travels.
+};
+
 /// A path segment of the best map: leaving one place by a gateway leads to another. Or a travel
 /// that the map leaves unexplained.
 struct MappedSegment {
@@ -53,7 +60,11 @@ struct MappedSegment {
   int travel_count = 0;
   double length_m = 0.0;  ///< Of the shortest travel.
   GaussianPose T_from_to;
-  std::size_t first_scan = 0;  ///< Of one travel along it, in MapState::trajectory.
+  /// Of all travels along it, in their order.
+  std::vector<SegmentTravel> travels;
+  double disagreement_sigmas = 0.0;  ///< Of the travel that disagrees most with all others.
+  int disagreeing_visit = -1;        ///< In which it ended; -1: nothing checks any of them.
+  std::size_t first_scan = 0;        ///< Of one travel along it, in MapState::trajectory.
   std::size_t last_scan = 0;
 };
 
@@ -95,9 +106,10 @@ struct MapState {
   std::vector<PosedScan> trajectory;         ///< Every scan so far: H(x).
   /// Every scan and every odometry sample between scans, in the order of arrival.
   std::vector<TimedPose> poses;
-  Pose2 T_global_lpm;                  ///< Where the frame of the local map lies now.
-  KeyScans key_scans;                  ///< Of the trajectory.
-  std::vector<SamePlace> same_places;  ///< What ties the trajectory to itself.
+  Pose2 T_global_lpm;                     ///< Where the frame of the local map lies now.
+  KeyScans key_scans;                     ///< Of the trajectory.
+  std::vector<TravelConstraint> travels;  ///< What the layout rests on.
+  std::vector<SamePlace> same_places;     ///< What ties the trajectory to itself.
 };
 
 }  // namespace cairn

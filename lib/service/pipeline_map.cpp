@@ -173,8 +173,8 @@ void MappingService::Pipeline::tell_best_map(MapState* state) const {
       state->places[static_cast<std::size_t>(state->place_of_visit[visit.index()])].name = name;
     }
   }
-  state->segments =
-      mapped_segments(best.map, experience_, metrical_.layout, matcher_.constraints(best.map));
+  state->travels = matcher_.constraints(best.map);
+  state->segments = mapped_segments(best.map, experience_, metrical_.layout, state->travels);
 }
 
 void MappingService::Pipeline::tell_hypotheses(MapState* state) const {

@@ -3,10 +3,14 @@
 #include <map>
 #include <utility>
 
+#include "layout/consistency.hpp"
 #include "layout/trajectory.hpp"
 
 namespace cairn {
 namespace {
+
+/// Of a travel's information, by direction; what others say less of they cannot contradict.
+constexpr double kLeastChecked = 1e-3;
 
 /// The poses between scans, bent along with those of the scans.
 void follow_scans(const std::vector<Pose2>& T_global_robot, std::vector<TimedPose>* poses) {
@@ -48,6 +52,29 @@ void move_places(const std::vector<PosedScan>& before,
   }
 }
 
+/// Which travel of each segment disagrees most with what all others say.
+void check_travels(MapState* state) {
+  PlaceLayout layout;
+  for (const MappedPlace& place : state->places) {
+    layout.T_global_place.push_back(place.T_global_place.mean);
+  }
+  const Result<std::vector<Agreement>> agreements = agreements_of(layout, state->travels);
+  if (!agreements) {
+    return;
+  }
+  for (MappedSegment& segment : state->segments) {
+    for (const SegmentTravel& travel : segment.travels) {
+      const Agreement& agreement = (*agreements)[travel.constraint];
+      const bool is_checked = agreement.checked_share > kLeastChecked;
+      if (is_checked &&
+          (segment.disagreeing_visit < 0 || agreement.sigmas > segment.disagreement_sigmas)) {
+        segment.disagreeing_visit = travel.visit;
+        segment.disagreement_sigmas = agreement.sigmas;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const MapState> MapRefiner::refined(const std::shared_ptr<const MapState>& state) {
@@ -59,6 +86,7 @@ std::shared_ptr<const MapState> MapRefiner::refined(const std::shared_ptr<const 
   const Result<RefinedTrajectory> trajectory =
       refiner_.refine(T_global_robot, state->key_scans, state->same_places);
   auto refined = std::make_shared<MapState>(*state);
+  check_travels(refined.get());
   if (trajectory && !T_global_robot.empty()) {
     const std::vector<Pose2>& moved = trajectory->T_global_robot;
     for (std::size_t i = 0; i < moved.size(); ++i) {

@@ -9,7 +9,8 @@
 namespace cairn {
 
 /// Makes of a picture of the map one whose trajectory is refined, with places, segments and the
-/// local map moved along: what is published and drawn. Off the thread that maps.
+/// local map moved along, and whose travels are held against each other: what is published and
+/// drawn. Off the thread that maps.
 class MapRefiner {
  public:
   /// @pre validate(options).ok()

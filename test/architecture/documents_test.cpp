@@ -21,8 +21,8 @@ const fs::path kSource = CAIRN_SOURCE_DIR;
 
 /// The endings that say the unit of a floating-point field, or that it has none.
 const std::vector<std::string> kUnits = {
-    "_m",     "_rad",        "_s",        "_ms",  "_mb",  "_share",     "_m2_rad2",
-    "_m_rad", "probability", "posterior", "_p50", "_max", "likelihood", "log_odds"};
+    "_m",          "_rad",      "_s",      "_ms",  "_mb",  "_share",     "_m2_rad2", "_m_rad",
+    "probability", "posterior", "_sigmas", "_p50", "_max", "likelihood", "log_odds"};
 
 bool says_its_unit(const std::string& field) {
   return std::any_of(kUnits.begin(), kUnits.end(), [&field](const std::string& unit) {
@@ -55,9 +55,9 @@ TEST(Messages, EveryFloatingFieldSaysItsUnit) {
 }
 
 TEST(Messages, UtimeComesFirstInEveryMessageOnTheBus) {
-  for (const std::string name :
-       {"laser_scan_t", "odometry_t", "sonar_ring_t", "status_t", "pose_t", "place_event_t",
-        "topology_t", "hypotheses_t", "map_delta_t", "snapshot_chunk_t", "rpc_header_t"}) {
+  for (const std::string name : {"laser_scan_t", "odometry_t", "sonar_ring_t", "status_t", "pose_t",
+                                 "place_event_t", "frame_change_t", "topology_t", "hypotheses_t",
+                                 "map_delta_t", "snapshot_chunk_t", "rpc_header_t"}) {
     const std::string text = test::content_of(kSource / "lcmtypes/cairn_lcm" / (name + ".lcm"));
     const auto first = text.find("int64_t utime;");
     ASSERT_NE(first, std::string::npos) << name;

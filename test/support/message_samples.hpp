@@ -14,6 +14,7 @@
 #include <cairn_lcm/explain_request_t.hpp>
 #include <cairn_lcm/explained_step_t.hpp>
 #include <cairn_lcm/explanation_t.hpp>
+#include <cairn_lcm/frame_change_t.hpp>
 #include <cairn_lcm/gateway_t.hpp>
 #include <cairn_lcm/grid_map_t.hpp>
 #include <cairn_lcm/hypotheses_t.hpp>
@@ -109,6 +110,15 @@ inline cairn_lcm::map_delta_t sample() {
   cairn_lcm::map_delta_t message{};
   message.data = {1, 2, 3};
   message.num_bytes = 3;
+  return message;
+}
+
+template <>
+inline cairn_lcm::frame_change_t sample() {
+  cairn_lcm::frame_change_t message{};
+  message.num_places = 2;
+  message.place_id = {3, 4};
+  message.dx_m = message.dy_m = message.dtheta_rad = {0.1, 0.2};
   return message;
 }
 

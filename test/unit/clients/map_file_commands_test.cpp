@@ -80,6 +80,30 @@ TEST_F(MapFileCommands, JsonOfPlacesIsTheTopologyMessage) {
   EXPECT_EQ(json["probability"], 0.75);
 }
 
+TEST_F(MapFileCommands, ConsistencyNamesTheClosureThatIsInDoubt) {
+  const Outcome consistency = run({"consistency", map_});
+  EXPECT_EQ(consistency.status, 0) << consistency.err;
+  EXPECT_THAT(consistency.out, HasSubstr("5 segments"));
+  EXPECT_THAT(consistency.out, HasSubstr("2 of them checked"));
+  EXPECT_THAT(consistency.out, HasSubstr("1 of 2 disagree"));
+  EXPECT_THAT(consistency.out,
+              HasSubstr("4.2  travel to visit 5, where place 1 was found again: that closure is in "
+                        "doubt"));
+  EXPECT_THAT(consistency.out, HasSubstr("0.7  travel to visit 1\n"));
+  EXPECT_LT(consistency.out.find("visit 5"), consistency.out.find("visit 1\n"));
+}
+
+TEST_F(MapFileCommands, ConsistencyAsJsonListsTheWorstFirst) {
+  const Outcome consistency = run({"consistency", map_, "--json"});
+  EXPECT_EQ(consistency.status, 0) << consistency.err;
+  const auto json = nlohmann::json::parse(consistency.out);
+  EXPECT_EQ(json["num_segments"], 5);
+  ASSERT_EQ(json["segments"].size(), 2U);
+  EXPECT_EQ(json["segments"][0]["place_found_again"], 1);
+  EXPECT_DOUBLE_EQ(json["segments"][0]["disagreement_sigmas"].get<double>(), 4.2);
+  EXPECT_EQ(json["segments"][1]["place_found_again"], -1);
+}
+
 TEST_F(MapFileCommands, HypothesesSayWhetherTheGuaranteeHolds) {
   const Outcome hypotheses = run({"hypotheses", map_});
 

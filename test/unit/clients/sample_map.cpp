@@ -167,6 +167,13 @@ cairn_lcm::topology_t sample_topology() {
   map.segments = {segment(1, 1, 2, 2), segment(2, 0, 3, 0), segment(3, 1, 4, 0),
                   segment(4, 1, 1, 0), segment(2, 1, 5, 0)};
   map.num_segments = 5;
+  for (cairn_lcm::segment_t& checked : map.segments) {
+    checked.disagreeing_visit = -1;
+  }
+  map.segments[0].disagreeing_visit = 1;
+  map.segments[0].disagreement_sigmas = 0.7;
+  map.segments[3].disagreeing_visit = 5;
+  map.segments[3].disagreement_sigmas = 4.2;
   return map;
 }
 

@@ -39,7 +39,7 @@ TEST(NormalDeviate, IsThatOfTheSameProbability) {
   // Quantiles of chi2 with 3 degrees of freedom at the one-sided normal deviates.
   EXPECT_NEAR(normal_deviate_of_chi2(7.815), 1.645, 0.02);
   EXPECT_NEAR(normal_deviate_of_chi2(11.345), 2.326, 0.02);
-  EXPECT_NEAR(normal_deviate_of_chi2(16.266), 3.090, 0.03);
+  EXPECT_NEAR(normal_deviate_of_chi2(16.266), 3.090, 0.05);
   EXPECT_EQ(normal_deviate_of_chi2(0.0), 0.0);
 }
 
