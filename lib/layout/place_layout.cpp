@@ -20,18 +20,19 @@ std::size_t at(int index) {
 /// Whether the travels may join all places; what is wrong with them is for `attempt_layout` to say.
 bool are_sound(int place_count, const std::vector<TravelConstraint>& travels) {
   const bool are_enough = place_count >= 1 && travels.size() + 1 >= at(place_count);
-  return are_enough && std::all_of(travels.begin(), travels.end(), [&](const TravelConstraint& travel) {
-    return travel.from >= 0 && travel.from < place_count && travel.to >= 0 &&
-           travel.to < place_count && validate_displacement(travel.T_from_to).ok();
-  });
+  return are_enough &&
+         std::all_of(travels.begin(), travels.end(), [&](const TravelConstraint& travel) {
+           return travel.from >= 0 && travel.from < place_count && travel.to >= 0 &&
+                  travel.to < place_count && validate_displacement(travel.T_from_to).ok();
+         });
 }
 
 /// The earlier layout moved to the frame of its place 0, with the other places chained on.
 std::optional<std::vector<Pose2>> start_from(const PlaceLayout* previous,
                                              int place_count,
                                              const std::vector<TravelConstraint>& travels) {
-  if (previous == nullptr || previous->T_global_place.empty() ||
-      !are_sound(place_count, travels) || previous->T_global_place.size() > at(place_count)) {
+  if (previous == nullptr || previous->T_global_place.empty() || !are_sound(place_count, travels) ||
+      previous->T_global_place.size() > at(place_count)) {
     return std::nullopt;
   }
   std::vector<Pose2> T_global_place(at(place_count));
