@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "layout/place_layout.hpp"
+#include "support/simulated_tour.hpp"
 
 namespace cairn {
 namespace {
@@ -30,6 +31,21 @@ void solve_layout_of_a_ring(benchmark::State& state) {
   state.SetComplexityN(places);
 }
 BENCHMARK(solve_layout_of_a_ring)->RangeMultiplier(4)->Range(16, 4096)->Complexity();
+
+/// A wanderer's tour; the share of travels that close a loop is counted.
+void solve_layout_of_a_tour(benchmark::State& state) {
+  test::TourOptions options;
+  options.place_count = static_cast<int>(state.range(0));
+  options.preference = 0.01 * static_cast<double>(state.range(1));
+  const test::SimulatedTour tour = test::simulated_tour(options);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(solve_layout(options.place_count, tour.travels));
+  }
+  state.counters["travels"] = static_cast<double>(tour.travels.size());
+}
+BENCHMARK(solve_layout_of_a_tour)
+    ->ArgsProduct({{100, 1000, 10000}, {90, 50, 10}})
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace cairn

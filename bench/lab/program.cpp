@@ -10,6 +10,7 @@
 #include "bench/lab/buildings_command.hpp"
 #include "bench/lab/closures_command.hpp"
 #include "bench/lab/islands_command.hpp"
+#include "bench/lab/layout_command.hpp"
 #include "bench/lab/localmap_command.hpp"
 #include "bench/lab/places_command.hpp"
 #include "bench/lab/recognition_command.hpp"
@@ -24,8 +25,8 @@ using clients::ExitCode;
 using clients::Failure;
 
 constexpr char kExitStatus[] =
-    "Exit status: 0 done; 1 done, but the counts are not those of the file, or an agreement does "
-    "not hold; 64 wrong command line; 65 bad data; 73 cannot write.";
+    "Exit status: 0 done; 1 done, but the counts are not those of the file, an agreement does "
+    "not hold, or a layout has not converged; 64 wrong command line; 65 bad data; 73 cannot write.";
 
 }  // namespace
 
@@ -44,6 +45,7 @@ int run_lab(const std::vector<std::string>& arguments, std::ostream& out, std::o
     add_islands_command(app, {out, err}, &status);
     add_rooms_command(app, {out, err}, &status);
     add_recognition_command(app, {out, err}, &status);
+    add_layout_command(app, {out, err}, &status);
     std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
     app.parse(reversed);
     out.flush();

@@ -15,7 +15,7 @@ void expect_optimum(const std::string& file, double optimum_chi2) {
   const test::G2oGraph graph = test::read_g2o(test::recorded_data(file));
   const Result<PlaceLayout> layout = solve_layout(graph.place_count, graph.travels);
   ASSERT_TRUE(layout) << layout.error().message;
-  EXPECT_NEAR(layout->chi2, optimum_chi2, 1e-3 * optimum_chi2) << layout->iterations;
+  EXPECT_NEAR(layout->chi2, optimum_chi2, 1e-6 * optimum_chi2) << layout->iterations;
 }
 
 TEST(RecordedPoseGraph, ManhattanReachesItsOptimum) {
