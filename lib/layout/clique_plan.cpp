@@ -95,21 +95,22 @@ std::vector<CliqueShape> plan_cliques(std::vector<std::vector<int>> neighbors,
   std::vector<int> shape_of(order.size(), -1);
   for (auto place = order.rbegin(); place != order.rend(); ++place) {
     std::vector<int> left = elimination.neighbors()[at(*place)];
-    std::sort(left.begin(), left.end(), is_earlier);
-    const int parent = left.empty() ? -1 : shape_of[at(left.front())];
-    if (parent >= 0 && shapes[at(parent)].places.front() == left.front() &&
+    std::sort(left.rbegin(), left.rend(), is_earlier);  // Backwards until all are there.
+    const int parent = left.empty() ? -1 : shape_of[at(left.back())];
+    if (parent >= 0 && shapes[at(parent)].places.back() == left.back() &&
         shapes[at(parent)].places.size() == left.size()) {
-      shapes[at(parent)].places.insert(shapes[at(parent)].places.begin(), *place);
+      shapes[at(parent)].places.push_back(*place);
       ++shapes[at(parent)].eliminated;
       shape_of[at(*place)] = parent;
       continue;
     }
     shape_of[at(*place)] = static_cast<int>(shapes.size());
-    left.insert(left.begin(), *place);
+    left.push_back(*place);
     shapes.push_back({std::move(left), 1, parent});
   }
   std::reverse(shapes.begin(), shapes.end());
   for (CliqueShape& shape : shapes) {
+    std::reverse(shape.places.begin(), shape.places.end());
     shape.parent = shape.parent < 0 ? -1 : static_cast<int>(shapes.size()) - 1 - shape.parent;
   }
   return shapes;

@@ -1,5 +1,6 @@
 #include "service/refined_map.hpp"
 
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -101,17 +102,34 @@ std::shared_ptr<const MapState> MapRefiner::refined(const std::shared_ptr<const 
 }
 
 std::vector<TimedPose> one_pose_for_each_time(const std::vector<TimedPose>& poses) {
-  std::map<TimePoint, std::size_t> chosen;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const auto [at, is_new] = chosen.try_emplace(poses[i].time, i);
-    if (!is_new && (poses[i].is_of_scan || !poses[at->second].is_of_scan)) {
-      at->second = i;
-    }
+  /// Sums over the poses of one stamp.
+  struct Sum {
+    Vector2d p = Vector2d::Zero();
+    Vector2d heading = Vector2d::Zero();
+    double count = 0.0;
+  };
+  std::map<TimePoint, std::pair<Sum, Sum>> sums;  // of scans, and of poses between
+  for (const TimedPose& posed : poses) {
+    auto& [of_scans, between] = sums[posed.time];
+    Sum& sum = posed.is_of_scan ? of_scans : between;
+    const Pose2& pose = posed.T_global_robot;
+    sum.p += pose.translation();
+    sum.heading += Vector2d(std::cos(pose.theta()), std::sin(pose.theta()));
+    sum.count += 1.0;
   }
   std::vector<TimedPose> unique;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (chosen.at(poses[i].time) == i) {
-      unique.push_back(poses[i]);
+  for (const TimedPose& posed : poses) {
+    auto& [of_scans, between] = sums[posed.time];
+    const bool is_of_scan = of_scans.count != 0.0;
+    Sum& sum = is_of_scan ? of_scans : between;
+    if (sum.count == 1.0 && posed.is_of_scan == is_of_scan) {
+      unique.push_back(posed);
+    } else if (sum.count > 1.0) {
+      unique.push_back(
+          {posed.time,
+           Pose2(Vector2d(sum.p / sum.count), std::atan2(sum.heading.y(), sum.heading.x())),
+           is_of_scan});
+      sum.count = -1.0;  // Told.
     }
   }
   return unique;

@@ -25,9 +25,9 @@ class MapRefiner {
   TrajectoryRefiner refiner_;
 };
 
-/// At most one pose for each time, in the same order: where stamps come again, a scan's pose goes
-/// before one between scans, and a later one before an earlier one. Readings that bear one stamp
-/// were handed over at once after a delay, and the last of them is the freshest.
+/// At most one pose for each time, in the order in which the times first came. Where a burst of
+/// readings bears one stamp, nothing tells which of them was taken then: the mean of their poses
+/// errs least, that of the scans' own ones where there are any.
 [[nodiscard]] std::vector<TimedPose> one_pose_for_each_time(const std::vector<TimedPose>& poses);
 
 }  // namespace cairn

@@ -81,14 +81,38 @@ TimedPose pose_at(std::int64_t utime, double x_m, bool is_of_scan) {
   return {time_of_utime(utime), Pose2(x_m, 0.0, 0.0), is_of_scan};
 }
 
-TEST(OnePoseForEachTime, AScanGoesBeforeOdometryAndTheLastBeforeTheFirst) {
-  const std::vector<TimedPose> unique =
-      one_pose_for_each_time({pose_at(1, 1.0, false), pose_at(2, 2.0, false),
-                              pose_at(2, 3.0, false), pose_at(2, 4.0, true), pose_at(2, 5.0, true),
-                              pose_at(2, 6.0, false), pose_at(1, 7.0, false)});
-  ASSERT_THAT(unique, SizeIs(2));
-  EXPECT_EQ(unique[0].T_global_robot.x(), 5.0);
-  EXPECT_EQ(unique[1].T_global_robot.x(), 7.0);
+TEST(OnePoseForEachTime, IsTheMeanOfTheScansOfThatTime) {
+  const std::vector<TimedPose> unique = one_pose_for_each_time(
+      {pose_at(1, 1.0, false), pose_at(2, 2.0, false), pose_at(2, 3.0, false),
+       pose_at(2, 4.0, true), pose_at(2, 5.0, true), pose_at(2, 9.0, false), pose_at(3, 7.0, true),
+       pose_at(1, 2.0, false), pose_at(3, 8.0, false)});
+  ASSERT_THAT(unique, SizeIs(3));
+  EXPECT_DOUBLE_EQ(unique[0].T_global_robot.x(), 1.5);
+  EXPECT_FALSE(unique[0].is_of_scan);
+  EXPECT_DOUBLE_EQ(unique[1].T_global_robot.x(), 4.5);
+  EXPECT_TRUE(unique[1].is_of_scan);
+  EXPECT_EQ(unique[2].T_global_robot, Pose2(7.0, 0.0, 0.0));
+}
+
+TEST(OnePoseForEachTime, HeadingsAreMeantAroundTheCircle) {
+  TimedPose a = pose_at(1, 0.0, true);
+  TimedPose b = pose_at(1, 0.0, true);
+  a.T_global_robot = Pose2(0, 0, kPi - 0.1);
+  b.T_global_robot = Pose2(0, 0, -kPi + 0.3);
+  const std::vector<TimedPose> unique = one_pose_for_each_time({a, b});
+  ASSERT_THAT(unique, SizeIs(1));
+  EXPECT_NEAR(turn_between(unique[0].T_global_robot.theta(), -kPi + 0.1), 0.0, 1e-9);
+}
+
+TEST(OnePoseForEachTime, PosesOfTheirOwnTimeStayAsTheyAre) {
+  const std::vector<TimedPose> poses = {pose_at(5, 1.0, true), pose_at(3, 2.0, false),
+                                        pose_at(4, 3.0, true)};
+  const std::vector<TimedPose> unique = one_pose_for_each_time(poses);
+  ASSERT_THAT(unique, SizeIs(3));
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(unique[i].time, poses[i].time);
+    EXPECT_EQ(unique[i].T_global_robot, poses[i].T_global_robot);
+  }
 }
 
 }  // namespace
