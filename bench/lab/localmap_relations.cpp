@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "clients/common/failure.hpp"
 
@@ -17,13 +18,6 @@ using clients::ExitCode;
 using clients::Failure;
 
 constexpr double kTolerance_s = 0.03;
-
-struct RelationError {
-  double translation_m = 0.0;
-  double rotation_deg = 0.0;
-  double travel_m = 0.0;
-  bool is_sure = true;  // which poses are meant
-};
 
 /// The scan nearest in time, the earlier one of two that are as near.
 const TrackedPose* scan_at(const std::vector<TrackedPose>& track, double time_s) {
@@ -117,27 +111,39 @@ std::vector<Relation> read_relations(const std::filesystem::path& file) {
   return relations;
 }
 
-RelationReport judge(const std::vector<Relation>& relations, std::vector<TrackedPose> track) {
+std::vector<std::optional<RelationError>> errors_over(const std::vector<Relation>& relations,
+                                                      std::vector<TrackedPose> track) {
   // Where stamps repeat after all, it must not depend on their order which pose is taken.
   std::sort(track.begin(), track.end(), [](const TrackedPose& a, const TrackedPose& b) {
     return std::tuple(a.time_s, a.T_lpm_robot.x(), a.T_lpm_robot.y(), a.T_lpm_robot.theta()) <
            std::tuple(b.time_s, b.T_lpm_robot.x(), b.T_lpm_robot.y(), b.T_lpm_robot.theta());
   });
-  RelationReport report;
-  std::vector<RelationError> errors;
+  std::vector<std::optional<RelationError>> errors;
   for (const Relation& relation : relations) {
     const TrackedPose* const from = scan_at(track, relation.from_s);
     const TrackedPose* const to = scan_at(track, relation.to_s);
     if (from == nullptr || to == nullptr) {
-      ++report.missing;
+      errors.emplace_back();
       continue;
     }
     const Pose2 found = from->T_lpm_robot.inverse() * to->T_lpm_robot;
     const Pose2 off = relation.T_from_to.inverse() * found;
-    errors.push_back({off.translation().norm(), std::abs(off.theta()) * 180.0 / kPi,
-                      std::abs(to->travel_m - from->travel_m),
-                      from->sharing == 1 && to->sharing == 1});
+    errors.push_back(RelationError{off.translation().norm(), std::abs(off.theta()) * 180.0 / kPi,
+                                   std::abs(to->travel_m - from->travel_m),
+                                   from->sharing == 1 && to->sharing == 1});
   }
+  return errors;
+}
+
+RelationReport judge(const std::vector<Relation>& relations, std::vector<TrackedPose> track) {
+  RelationReport report;
+  std::vector<RelationError> errors;
+  for (const std::optional<RelationError>& error : errors_over(relations, std::move(track))) {
+    if (error) {
+      errors.push_back(*error);
+    }
+  }
+  report.missing = static_cast<std::int64_t>(relations.size() - errors.size());
   const auto is_near = [&](const RelationError& e) { return e.travel_m <= report.near_m; };
   report.all = summed_up(errors, [](const RelationError&) { return true; });
   report.near = summed_up(errors, is_near);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "bench/lab/localmap_run.hpp"
@@ -18,6 +19,18 @@ struct Relation {
 /// Lines `t1 t2 x y z roll pitch yaw`; `#` starts a comment. Throws clients::Failure(kBadData) with
 /// the line that is not so.
 [[nodiscard]] std::vector<Relation> read_relations(const std::filesystem::path& file);
+
+/// Of one relation.
+struct RelationError {
+  double translation_m = 0.0;
+  double rotation_deg = 0.0;
+  double travel_m = 0.0;  ///< Between its ends.
+  bool is_sure = true;    ///< Both ends bear stamps that no other pose bears.
+};
+
+/// By relation; none where an end has no pose within 30 ms.
+[[nodiscard]] std::vector<std::optional<RelationError>> errors_over(
+    const std::vector<Relation>& relations, std::vector<TrackedPose> track);
 
 struct ErrorMoments {
   double mean = 0.0;

@@ -16,6 +16,7 @@
 #include "bench/lab/recognition_command.hpp"
 #include "bench/lab/rooms_command.hpp"
 #include "bench/lab/topology_command.hpp"
+#include "bench/lab/trajectory_command.hpp"
 #include "clients/common/failure.hpp"
 
 namespace cairn::lab {
@@ -41,6 +42,7 @@ int run_lab(const std::vector<std::string>& arguments, std::ostream& out, std::o
     add_localmap_command(app, {out, err}, &status);
     add_places_command(app, {out, err}, &status);
     add_closures_command(app, {out, err}, &status);
+    add_trajectory_command(app, {out, err});
     add_buildings_command(app, {out, err}, &status);
     add_islands_command(app, {out, err}, &status);
     add_rooms_command(app, {out, err}, &status);
