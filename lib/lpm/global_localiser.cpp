@@ -140,7 +140,7 @@ GlobalMatch GlobalLocaliser::followed(const std::vector<SurfacePoint>& points,
       std::clamp(kWindowInSigmas * sigma_m, kLeastWindow_m, options_.follow_range_m),
       std::clamp(kWindowInSigmas * std::sqrt(covariance(2, 2)), kLeastWindow_rad,
                  options_.follow_turn_rad)};
-  const std::vector<GlobalMatch> best = search_.find(points, 1, window);
+  const std::vector<GlobalMatch> best = search_.find(points, {1, 0.0, window});
   GlobalMatch match = best.empty() ? GlobalMatch{} : best.front();
   // Along a corridor all poses are as good: there, the prediction knows better.
   match.T_map_robot = best.empty() ? predicted : fused(predicted, match.T_map_robot);
@@ -174,7 +174,7 @@ GlobalLocaliser::Candidate GlobalLocaliser::looked_back(const GlobalMatch& match
 
 void GlobalLocaliser::put_forward() {
   ++searches_;
-  for (const GlobalMatch& match : search_.find(key_scans_.back().points, options_.candidates)) {
+  for (const GlobalMatch& match : search_.find(key_scans_.back().points, {options_.candidates})) {
     const bool is_new =
         std::none_of(candidates_.begin(), candidates_.end(), [&](const Candidate& known) {
           return is_same(known.T_map_robot.mean, match.T_map_robot.mean);
@@ -267,7 +267,7 @@ bool GlobalLocaliser::is_still_there() {
 bool GlobalLocaliser::has_better(std::size_t late, double score) {
   ++searches_;
   const std::vector<GlobalMatch> matches =
-      search_.find(key_scans_.back().points, options_.candidates);
+      search_.find(key_scans_.back().points, {options_.candidates});
   return std::any_of(matches.begin(), matches.end(), [&](const GlobalMatch& match) {
     return looked_back(match, late).mean_score() > score;
   });

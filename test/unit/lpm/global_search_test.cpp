@@ -1,16 +1,20 @@
 #include "lpm/global_search.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <random>
 
 #include <gmock/gmock.h>
 
+#include "lpm/global_search_run.hpp"
 #include "support/ascii_grid.hpp"
 
 namespace cairn {
 namespace {
 
+using testing::DoubleNear;
 using testing::IsEmpty;
+using testing::Pointwise;
 using testing::SizeIs;
 
 constexpr double kCell_m = 0.1;
@@ -117,29 +121,109 @@ std::vector<Scored> all_scores(const OccupancyGrid& map,
   return all;
 }
 
-TEST(GlobalSearch, FindsWhatExhaustiveSearchFinds) {
+bool are_neighbours(const Pose2& a, const Pose2& b, const GlobalSearchOptions& options) {
+  return (a.translation() - b.translation()).norm() < options.neighbour_m &&
+         std::abs(turn_between(a.theta(), b.theta())) < options.neighbour_rad;
+}
+
+/// The scores of the best poses that are no neighbours, by looking at every one.
+std::vector<double> best_scores(std::vector<Scored> all,
+                                std::size_t count,
+                                const GlobalSearchOptions& options) {
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Scored& a, const Scored& b) { return a.score > b.score; });
+  std::vector<Scored> best;
+  for (const Scored& any : all) {
+    const bool is_new = std::none_of(best.begin(), best.end(), [&](const Scored& better) {
+      return are_neighbours(any.pose, better.pose, options);
+    });
+    if (is_new && best.size() < count) {
+      best.push_back(any);
+    }
+  }
+  std::vector<double> scores;
+  for (const Scored& any : best) {
+    scores.push_back(any.score);
+  }
+  return scores;
+}
+
+std::vector<double> scores_of(const std::vector<GlobalMatch>& matches) {
+  std::vector<double> scores;
+  for (const GlobalMatch& match : matches) {
+    scores.push_back(match.score);
+  }
+  return scores;
+}
+
+GlobalSearchOptions close_neighbours() {
   GlobalSearchOptions options;
   options.robot_clearance_m = 0.11;
-  for (unsigned seed = 0; seed < 4; ++seed) {
+  options.neighbour_m = 0.35;
+  return options;
+}
+
+TEST(GlobalSearch, FindsWhatExhaustiveSearchFinds) {
+  const GlobalSearchOptions options = close_neighbours();
+  for (unsigned seed = 0; seed < 6; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
     const OccupancyGrid map = random_map(&random);
     const std::vector<SurfacePoint> points = random_points(&random);
-    const auto found = GlobalSearch(map, options).find(points, 2);
-    ASSERT_THAT(found, SizeIs(2));
-    double best = 0.0;
-    double next = 0.0;
-    for (const Scored& any : all_scores(map, points, options)) {
-      best = std::max(best, any.score);
-      const bool is_neighbour =
-          (any.pose.translation() - found[0].raster_pose.translation()).norm() <
-              options.neighbour_m &&
-          std::abs(turn_between(any.pose.theta(), found[0].raster_pose.theta())) <
-              options.neighbour_rad;
-      next = is_neighbour ? next : std::max(next, any.score);
+    const std::vector<GlobalMatch> found = GlobalSearch(map, options).find(points, {5});
+    EXPECT_THAT(
+        scores_of(found),
+        Pointwise(DoubleNear(1e-9), best_scores(all_scores(map, points, options), 5, options)));
+  }
+}
+
+TEST(GlobalSearch, FindsTheSameAboveALeastScoreWithLessWork) {
+  const GlobalSearchOptions options = close_neighbours();
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const GlobalSearch search(random_map(&random), options);
+    const std::vector<SurfacePoint> points = random_points(&random);
+    GlobalSearchRun all(search, points, {20});
+    all.work(std::numeric_limits<std::int64_t>::max());
+    ASSERT_THAT(all.found(), SizeIs(20));
+    const double least = all.found()[3].score;
+    GlobalSearchRun some(search, points, {20, least});
+    some.work(std::numeric_limits<std::int64_t>::max());
+    std::vector<double> expected = scores_of(all.found());
+    expected.erase(std::remove_if(expected.begin(), expected.end(),
+                                  [&](double score) { return score < least; }),
+                   expected.end());
+    EXPECT_EQ(scores_of(some.found()), expected);
+    EXPECT_LT(some.lookups(), all.lookups());
+  }
+}
+
+TEST(GlobalSearch, FindsTheSameInSlicesAndEachIsBounded) {
+  constexpr std::int64_t kSlice = 500;
+  constexpr std::int64_t kOneBlock = 16 * 3 * 12 + 4 * 2 * 3 * 12;  // turned, and looked up
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const GlobalSearch search(random_map(&random), close_neighbours());
+    const std::vector<SurfacePoint> points = random_points(&random);
+    const std::vector<GlobalMatch> whole = search.find(points, {5});
+    GlobalSearchRun run(search, points, {5});
+    int slices = 0;
+    while (!run.is_done()) {
+      const std::int64_t before = run.lookups();
+      run.work(kSlice);
+      EXPECT_LT(run.lookups() - before, kSlice + 8 * kOneBlock);
+      ++slices;
     }
-    EXPECT_NEAR(found[0].score, best, 1e-9);
-    EXPECT_NEAR(found[1].score, next, 1e-9);
+    EXPECT_GT(slices, 10);
+    ASSERT_EQ(run.found().size(), whole.size());
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      EXPECT_EQ(run.found()[i].raster_pose, whole[i].raster_pose);
+      EXPECT_EQ(run.found()[i].T_map_robot.mean, whole[i].T_map_robot.mean);
+      EXPECT_EQ(run.found()[i].T_map_robot.covariance, whole[i].T_map_robot.covariance);
+      EXPECT_EQ(run.found()[i].score, whole[i].score);
+    }
   }
 }
 
@@ -174,7 +258,7 @@ TEST(GlobalSearch, FindsTheRobotInARoomFromNoPrior) {
   const GlobalSearch search(map, options);
   for (const Pose2& truth : {Pose2(0.35, 0.35, 0.3), Pose2(1.4, 0.8, 2.8), Pose2(1.55, 0.25, -2.0),
                              Pose2(0.3, 0.85, -0.9)}) {
-    const auto found = search.find(seen_from(map, truth), 2);
+    const auto found = search.find(seen_from(map, truth), {2});
     ASSERT_THAT(found, SizeIs(2));
     const Pose2& pose = found[0].T_map_robot.mean;
     EXPECT_LT((pose.translation() - truth.translation()).norm(), 0.08);
@@ -196,7 +280,7 @@ TEST(GlobalSearch, HasNoMarginWhereTwoPlacesAreAlike) {
   }
   GlobalSearchOptions options;
   options.neighbour_m = 0.3;
-  const auto found = GlobalSearch(same, options).find(seen_from(same, Pose2(0.25, 0.35, 0.1)), 2);
+  const auto found = GlobalSearch(same, options).find(seen_from(same, Pose2(0.25, 0.35, 0.1)), {2});
   ASSERT_THAT(found, SizeIs(2));
   EXPECT_LT(found[0].score - found[1].score, 0.02);
 }
@@ -207,7 +291,8 @@ TEST(GlobalSearch, LooksOnlyIntoItsWindow) {
   options.neighbour_m = 0.1;
   const GlobalSearch search(map, options);
   const GlobalWindow window{Pose2(1.4, 0.8, 2.0), 0.2, 0.3};
-  for (const GlobalMatch& match : search.find(seen_from(map, Pose2(0.35, 0.35, 0.3)), 5, window)) {
+  for (const GlobalMatch& match :
+       search.find(seen_from(map, Pose2(0.35, 0.35, 0.3)), {5, 0.0, window})) {
     EXPECT_LE((match.raster_pose.translation() - window.center.translation()).cwiseAbs().maxCoeff(),
               0.2 + kCell_m);
     EXPECT_LE(std::abs(turn_between(match.raster_pose.theta(), 2.0)), 0.3);
@@ -217,11 +302,12 @@ TEST(GlobalSearch, LooksOnlyIntoItsWindow) {
 TEST(GlobalSearch, FindsNothingWhereThereIsNothing) {
   const OccupancyGrid map = lopsided_room();
   const auto points = seen_from(map, Pose2(0.35, 0.35, 0.3));
-  EXPECT_THAT(GlobalSearch(map).find({}, 3), IsEmpty());
-  EXPECT_THAT(GlobalSearch(OccupancyGrid()).find(points, 3), IsEmpty());
-  EXPECT_THAT(GlobalSearch(OccupancyGrid(map.geometry())).find(points, 3), IsEmpty());
-  EXPECT_THAT(GlobalSearch(map).find(points, 3, {Pose2(90.0, 90.0, 0.0), 1.0, 1.0}), IsEmpty());
-  EXPECT_THAT(GlobalSearch(map).find(points, 0), IsEmpty());
+  EXPECT_THAT(GlobalSearch(map).find({}, {3}), IsEmpty());
+  EXPECT_THAT(GlobalSearch(OccupancyGrid()).find(points, {3}), IsEmpty());
+  EXPECT_THAT(GlobalSearch(OccupancyGrid(map.geometry())).find(points, {3}), IsEmpty());
+  EXPECT_THAT(GlobalSearch(map).find(points, {3, 0.0, {Pose2(90.0, 90.0, 0.0), 1.0, 1.0}}),
+              IsEmpty());
+  EXPECT_THAT(GlobalSearch(map).find(points, {0}), IsEmpty());
 }
 
 }  // namespace
