@@ -57,6 +57,8 @@ OptionObject describe(RelocalisationOptions* relocalisation) {
                "A larger map is not searched: it takes 22 bytes a cell.")
       .number("draw_every_m", &relocalisation->draw_every_m, {0, 10},
               "Travel between scans that are drawn.")
+      .integer("lookups_per_scan", &relocalisation->lookups_per_scan, {1e4, 1e9},
+               "Work done with each scan, in cells of the map looked up.")
       .integer("max_searches", &relocalisation->max_searches, {1, 100000},
                "Searches of the whole map before it is given up.")
       .number("accept_travel_m", &relocalisation->accept_travel_m, {0, 1000},

@@ -11,7 +11,6 @@
 #include "base/validator.hpp"
 #include "lpm/global_search_run.hpp"
 #include "lpm/surface_points.hpp"
-#include "lpm/turned_scans.hpp"
 
 namespace cairn {
 namespace {
@@ -23,6 +22,16 @@ constexpr double kBlindSigma_m = 1.0;            // in a direction a scan says n
 constexpr double kBlindSigma_rad = 0.5;
 constexpr double kMatchSigma_m = 0.01;  // no match is better than this
 constexpr double kMatchSigma_rad = 0.003;
+
+constexpr int kStepsPerRow = 4;
+constexpr std::int64_t kWorkPerWall = 200;  // in cells, about
+constexpr std::int64_t kWorkPerFreeCell = 10;
+
+/// Of the low corner of a cell, among all corners of cells.
+std::size_t corner(const GridGeometry& map, Cell cell) {
+  return static_cast<std::size_t>(cell.y) * (static_cast<std::size_t>(map.width) + 1) +
+         static_cast<std::size_t>(cell.x);
+}
 
 Matrix3d diagonal(double sigma_m, double sigma_rad) {
   return Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
@@ -43,56 +52,119 @@ Status validate(const GlobalSearchOptions& options) {
       .status();
 }
 
-GlobalSearch::GlobalSearch(const OccupancyGrid& map, const GlobalSearchOptions& options)
-    : options_(options), walls_(map.geometry()) {
+GlobalSearch::GlobalSearch(const GridGeometry& geometry, const GlobalSearchOptions& options)
+    : options_(options), walls_(geometry), likelihood_(geometry), freeness_(geometry) {
   CAIRN_CHECK(validate(options).ok());
-  if (map.geometry().cell_count() > 0) {
-    take(map);
-  }
-}
-
-void GlobalSearch::take(const OccupancyGrid& map) {
-  const GridGeometry& geometry = map.geometry();
-  walls_.renew(map, {0, 0}, {geometry.width - 1, geometry.height - 1});
-  std::array<std::uint8_t, DistanceField::kFar + 1> likelihood_at{};
   const double sigma_cells = options_.hit_sigma_m / geometry.cell_m;
   for (std::size_t squared = 0; squared < DistanceField::kFar; ++squared) {
     const double exponent = -0.5 * static_cast<double>(squared) / (sigma_cells * sigma_cells);
-    likelihood_at[squared] =
+    likelihood_at_[squared] =
         static_cast<std::uint8_t>(std::lround(kFullScore * std::exp(exponent)));
   }
-  std::vector<std::uint8_t> likelihood(geometry.cell_count());
-  for (int y = 0; y < geometry.height; ++y) {
-    walls_.look_up({0, y}, geometry.width, likelihood_at, &likelihood[geometry.index_of({0, y})]);
-  }
-  std::vector<std::uint8_t> freeness(geometry.cell_count(), 0);
-  std::vector<std::uint8_t> allowed(geometry.cell_count(), 0);
-  for (int y = 0; y < geometry.height; ++y) {
-    for (int x = 0; x < geometry.width; ++x) {
-      const CellState state = map.state({x, y});
-      if (state == CellState::kFree) {
-        freeness[geometry.index_of({x, y})] = 255;
-        allow_around({x, y}, &allowed);
-      } else if (state == CellState::kUnknown) {
-        freeness[geometry.index_of({x, y})] = kFreenessOfUnknown;
-      }
-    }
-  }
-  likelihood_ = SquareMaxima(geometry, likelihood);
-  freeness_ = SquareMaxima(geometry, freeness);
-  allowed_ = MaxPyramid(geometry, std::move(allowed), TurnedScans::kLevels);
+  allowed_.resize(geometry.cell_count());
+  fits_.resize(corner(geometry, {0, geometry.height + 1}));
 }
 
-void GlobalSearch::allow_around(Cell free_cell, std::vector<std::uint8_t>* allowed) const {
+GlobalSearch::GlobalSearch(const OccupancyGrid& map, const GlobalSearchOptions& options)
+    : GlobalSearch(map.geometry(), options) {
+  while (!is_taken()) {
+    take(map, std::numeric_limits<std::int64_t>::max());
+  }
+}
+
+void GlobalSearch::take(const OccupancyGrid& map, std::int64_t cells) {
+  while (!is_taken() && cells > 0) {
+    cells -= take_step(map, next_step_++);
+  }
+}
+
+int GlobalSearch::step_count() const {
+  return kStepsPerRow * geometry().height + static_cast<int>(SquareMaxima::kSides_cells.size()) - 1;
+}
+
+std::int64_t GlobalSearch::take_step(const OccupancyGrid& map, int step) {
+  const int rows = geometry().height;
+  if (step >= kStepsPerRow * rows) {
+    return widen(step - kStepsPerRow * rows + 1);
+  }
+  switch (step / rows) {
+    case 0:
+      return take_walls(map, step % rows);
+    case 1:
+      return take_likelihood(step % rows);
+    case 2:
+      return take_free(map, step % rows);
+    default:
+      return take_fits(step % rows);
+  }
+}
+
+std::int64_t GlobalSearch::take_walls(const OccupancyGrid& map, int y) {
+  std::int64_t walls = 0;
+  for (int x = 0; x < geometry().width; ++x) {
+    if (map.state({x, y}) == CellState::kOccupied) {
+      walls_.add_wall({x, y});
+      ++walls;
+    }
+  }
+  return geometry().width + walls * kWorkPerWall;
+}
+
+std::int64_t GlobalSearch::take_likelihood(int y) {
+  walls_.look_up({0, y}, geometry().width, likelihood_at_, likelihood_.row(y));
+  return geometry().width;
+}
+
+std::int64_t GlobalSearch::take_free(const OccupancyGrid& map, int y) {
+  std::uint8_t* const row = freeness_.row(y);
+  std::int64_t free = 0;
+  for (int x = 0; x < geometry().width; ++x) {
+    const CellState state = map.state({x, y});
+    if (state == CellState::kFree) {
+      row[x] = 255;
+      allow_around({x, y});
+      ++free;
+    } else if (state == CellState::kUnknown) {
+      row[x] = kFreenessOfUnknown;
+    }
+  }
+  return geometry().width + free * kWorkPerFreeCell;
+}
+
+std::int64_t GlobalSearch::take_fits(int y) {
+  const GridGeometry& map = geometry();
+  std::int32_t in_row = 0;
+  for (int x = 0; x < map.width; ++x) {
+    in_row += allowed_[map.index_of({x, y})];
+    fits_[corner(map, {x + 1, y + 1})] = fits_[corner(map, {x + 1, y})] + in_row;
+  }
+  return map.width;
+}
+
+std::int64_t GlobalSearch::widen(int kind) {
+  likelihood_.widen(kind);
+  freeness_.widen(kind);
+  return static_cast<std::int64_t>(geometry().cell_count());
+}
+
+void GlobalSearch::allow_around(Cell free_cell) {
   const GridGeometry& map = geometry();
   const int reach = static_cast<int>(std::floor(options_.robot_clearance_m / map.cell_m));
   const int last_y = std::min(free_cell.y + reach, map.height - 1);
   const int first_x = std::max(free_cell.x - reach, 0);
   const int last_x = std::min(free_cell.x + reach, map.width - 1);
   for (int y = std::max(free_cell.y - reach, 0); y <= last_y; ++y) {
-    std::uint8_t* const row = allowed->data() + map.index_of({0, y});
+    std::uint8_t* const row = allowed_.data() + map.index_of({0, y});
     std::fill(row + first_x, row + last_x + 1, std::uint8_t{1});
   }
+}
+
+bool GlobalSearch::fits(Cell low, int side_cells) const {
+  const GridGeometry& map = geometry();
+  const Cell end{std::min(low.x + side_cells, map.width), std::min(low.y + side_cells, map.height)};
+  return fits_[corner(map, end)] - fits_[corner(map, {low.x, end.y})] -
+             fits_[corner(map, {end.x, low.y})] + fits_[corner(map, low)] >
+         0;
 }
 
 bool GlobalSearch::is_near(const Pose2& a, const Pose2& b, double neighbourhoods) const {

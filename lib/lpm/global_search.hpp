@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -7,7 +8,6 @@
 #include "geometry/gaussian_pose.hpp"
 #include "grid/occupancy_grid.hpp"
 #include "lpm/distance_field.hpp"
-#include "lpm/max_pyramid.hpp"
 #include "lpm/scan_refinement.hpp"
 #include "lpm/square_maxima.hpp"
 
@@ -65,6 +65,12 @@ class GlobalSearch {
   /// Takes a copy of all that it needs of the map.
   /// @pre validate(options).ok()
   explicit GlobalSearch(const OccupancyGrid& map, const GlobalSearchOptions& options = {});
+  /// The same, bit by bit: nothing is taken of the map yet.
+  GlobalSearch(const GridGeometry& geometry, const GlobalSearchOptions& options);
+  /// Takes some more of the map, which is the same every time.
+  /// @param cells how many to take, about; those around walls and free cells count too
+  void take(const OccupancyGrid& map, std::int64_t cells);
+  [[nodiscard]] bool is_taken() const { return next_step_ == step_count(); }
 
   /// The best poses, best first: each the best of all that are no neighbours of those before it.
   /// None where there are no points, or no free cell in the window. How much the first is better
@@ -78,8 +84,17 @@ class GlobalSearch {
  private:
   friend class GlobalSearchRun;
 
-  void take(const OccupancyGrid& map);
-  void allow_around(Cell free_cell, std::vector<std::uint8_t>* allowed) const;
+  // What is to be taken, row by row; each tells how much work it was.
+  std::int64_t take_walls(const OccupancyGrid& map, int y);
+  std::int64_t take_free(const OccupancyGrid& map, int y);
+  std::int64_t take_likelihood(int y);
+  std::int64_t take_fits(int y);
+  std::int64_t widen(int kind);
+  std::int64_t take_step(const OccupancyGrid& map, int step);
+  [[nodiscard]] int step_count() const;
+  void allow_around(Cell free_cell);
+  /// Whether the robot fits anywhere in a square, as far as that lies on the map.
+  [[nodiscard]] bool fits(Cell low, int side_cells) const;
   [[nodiscard]] std::vector<SurfacePoint> chosen(const std::vector<SurfacePoint>& points) const;
   [[nodiscard]] bool is_near(const Pose2& a, const Pose2& b, double neighbourhoods) const;
   [[nodiscard]] GlobalMatch refined(const std::vector<SurfacePoint>& points,
@@ -88,9 +103,12 @@ class GlobalSearch {
 
   GlobalSearchOptions options_;
   DistanceField walls_;
-  SquareMaxima likelihood_;  // of a return
+  std::array<std::uint8_t, DistanceField::kFar + 1> likelihood_at_{};  // by squared distance
+  SquareMaxima likelihood_;                                            // of a return
   SquareMaxima freeness_;
-  MaxPyramid allowed_;  // where the robot fits
+  std::vector<std::uint8_t> allowed_;  // where the robot fits
+  std::vector<std::int32_t> fits_;     // how many such cells are below and left of a corner
+  int next_step_ = 0;
 };
 
 }  // namespace cairn

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kFullScore = 255.0;
 constexpr double kPointsPerWay = 2.0;
+constexpr std::int64_t kWorkOfRefinement = 5'000;  // in lookups, about
 constexpr int kBuckets = 1024;
 constexpr int kDivesPerPose = 4;
 constexpr std::size_t kPointsAtOnce = 16;  // lookups before asking whether more are worth it
@@ -115,7 +116,7 @@ void GlobalSearchRun::choose_top_blocks() {
 }
 
 bool GlobalSearchRun::is_possible(Cell low, int level) const {
-  return low.x <= box_.high.x && low.y <= box_.high.y && search_.allowed_.greatest(low, level) != 0;
+  return low.x <= box_.high.x && low.y <= box_.high.y && search_.fits(low, 1 << level);
 }
 
 void GlobalSearchRun::work(std::int64_t lookups) {
@@ -295,6 +296,7 @@ void GlobalSearchRun::take_up(const Block& leaf) {
   });
   if (is_new) {
     found_.push_back(search_.refined(points_, pose, leaf.score));
+    lookups_ += kWorkOfRefinement;
     if (found_.size() >= static_cast<std::size_t>(query_.count)) {
       phase_ = Phase::kDone;
     }

@@ -27,8 +27,8 @@ class GlobalSearchRun {
                   const std::vector<SurfacePoint>& points,
                   const GlobalQuery& query);
 
-  /// Works on until it is done or has looked up so many cells more, and the few hundred more of the
-  /// last block. Turning a point counts as a lookup.
+  /// Works on until it is done or has looked up so many cells more, and a few thousand more at
+  /// most. Turning a point counts as a lookup, and a refinement as 5000.
   void work(std::int64_t lookups);
   [[nodiscard]] bool is_done() const { return phase_ == Phase::kDone; }
   /// As of now; all that was asked for when done.

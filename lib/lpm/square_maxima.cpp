@@ -26,30 +26,41 @@ int SquareMaxima::kind_for(int side_cells) {
                           kSides_cells.begin());
 }
 
-SquareMaxima::SquareMaxima(const GridGeometry& geometry, const std::vector<std::uint8_t>& values)
+SquareMaxima::SquareMaxima(const GridGeometry& geometry)
     : width_(geometry.width),
       height_(geometry.height),
       stride_(geometry.width + kWidest_cells + 1),
       plane_(stride_ * (geometry.height + kWidest_cells + 1)) {
-  const auto row = static_cast<std::size_t>(stride_);
   const auto plane = static_cast<std::size_t>(plane_);
-  values_.resize(kSides_cells.size() * plane);
+  values_ = std::make_unique_for_overwrite<std::uint8_t[]>(kSides_cells.size() * plane);
+  std::fill_n(values_.get(), plane, std::uint8_t{0});
+}
+
+SquareMaxima::SquareMaxima(const GridGeometry& geometry, const std::vector<std::uint8_t>& values)
+    : SquareMaxima(geometry) {
   for (int y = 0; y < height_; ++y) {
     const auto first = static_cast<std::ptrdiff_t>(geometry.index_of({0, y}));
-    std::copy_n(values.begin() + first, width_, values_.begin() + index_of({0, y}));
+    std::copy_n(values.begin() + first, width_, row(y));
   }
+  for (int kind = 1; kind < static_cast<int>(kSides_cells.size()); ++kind) {
+    widen(kind);
+  }
+}
+
+void SquareMaxima::widen(int kind) {
+  const auto here = static_cast<std::size_t>(kind);
+  std::size_t below = here - 1;  // the smallest that is at least half as wide
+  while (below > 0 && 2 * kSides_cells[below - 1] >= kSides_cells[here]) {
+    --below;
+  }
+  const auto shift = static_cast<std::size_t>(kSides_cells[here] - kSides_cells[below]);
+  const auto row = static_cast<std::size_t>(stride_);
+  const auto plane = static_cast<std::size_t>(plane_);
   std::vector<std::uint8_t> longer(plane);
-  for (std::size_t kind = 1; kind < kSides_cells.size(); ++kind) {
-    std::size_t below = kind - 1;  // the smallest that is at least half as wide
-    while (below > 0 && 2 * kSides_cells[below - 1] >= kSides_cells[kind]) {
-      --below;
-    }
-    const auto shift = static_cast<std::size_t>(kSides_cells[kind] - kSides_cells[below]);
-    for (std::size_t first = 0; first < plane; first += row) {
-      take_farther(&values_[below * plane + first], row, shift, &longer[first]);
-    }
-    take_farther(longer.data(), plane, shift * row, &values_[kind * plane]);
+  for (std::size_t first = 0; first < plane; first += row) {
+    take_farther(&values_[below * plane + first], row, shift, &longer[first]);
   }
+  take_farther(longer.data(), plane, shift * row, &values_[here * plane]);
 }
 
 Cell SquareMaxima::inside(Cell cell) const {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "grid/occupancy_grid.hpp"
@@ -24,6 +25,15 @@ class SquareMaxima {
   SquareMaxima() = default;
   /// @pre values.size() == geometry.cell_count()
   SquareMaxima(const GridGeometry& geometry, const std::vector<std::uint8_t>& values);
+  /// All values are 0, until they are filled in and widened.
+  explicit SquareMaxima(const GridGeometry& geometry);
+
+  /// The values of a row of the map.
+  [[nodiscard]] std::uint8_t* row(int y) {
+    return &values_[static_cast<std::size_t>(index_of({0, y}))];
+  }
+  /// Makes the squares of a kind. @pre all values are filled in, and all kinds below are made
+  void widen(int kind);
 
   /// The smallest kind of squares whose side is no less. @pre side_cells in [1, kWidest_cells]
   [[nodiscard]] static int kind_for(int side_cells);
@@ -44,14 +54,14 @@ class SquareMaxima {
   /// The nearest cell that is inside: what begins there is as great as what begins at the cell.
   [[nodiscard]] Cell inside(Cell cell) const;
   /// By index and offset.
-  [[nodiscard]] const std::uint8_t* values() const { return values_.data(); }
+  [[nodiscard]] const std::uint8_t* values() const { return values_.get(); }
 
  private:
   int width_ = 0;  // of the map
   int height_ = 0;
-  std::int32_t stride_ = 0;  // cells from one row to the next
-  std::int32_t plane_ = 0;   // cells from one kind of squares to the next
-  std::vector<std::uint8_t> values_;
+  std::int32_t stride_ = 0;                 // cells from one row to the next
+  std::int32_t plane_ = 0;                  // cells from one kind of squares to the next
+  std::unique_ptr<std::uint8_t[]> values_;  // of a kind that was not made yet: anything
 };
 
 }  // namespace cairn

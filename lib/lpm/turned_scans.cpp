@@ -45,14 +45,14 @@ TurnedScans::TurnedScans(const std::vector<SurfacePoint>& points,
     farthest_cells = std::max(farthest_cells, point.p.norm() / cell_m);
   }
   const int angles = static_cast<int>(std::min(std::ceil(2.0 * kPi * farthest_cells), kMaxAngles));
-  // From behind the window on, so that neighbours in the window are neighbours in the list.
-  const auto behind =
-      static_cast<int>(std::ceil(wrap_angle(center_rad + kPi) * angles / (2.0 * kPi)));
-  for (int i = behind; i < behind + angles; ++i) {
-    const double angle_rad = wrap_angle(2.0 * kPi * ((i + angles) % angles) / angles);
-    if (std::abs(turn_between(center_rad, angle_rad)) <= half_rad) {
-      angles_rad_.push_back(angle_rad);
-    }
+  const double step_rad = 2.0 * kPi / angles;
+  // Neighbours in the window are neighbours in the list.
+  const bool is_all = half_rad >= kPi;
+  const int low = is_all ? 0 : static_cast<int>(std::ceil((center_rad - half_rad) / step_rad));
+  const int high =
+      is_all ? angles - 1 : static_cast<int>(std::floor((center_rad + half_rad) / step_rad));
+  for (int i = low; i <= high; ++i) {
+    angles_rad_.push_back(wrap_angle(step_rad * ((i % angles + angles) % angles)));
   }
   while (2.0 * kPi * farthest_cells > angles * std::exp2(coarseness_)) {
     ++coarseness_;
