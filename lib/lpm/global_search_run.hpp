@@ -56,6 +56,8 @@ class GlobalSearchRun {
     std::array<Cell, kAtOnce> lows;
   };
   using Scores = std::array<double, kAtOnce>;
+  /// Sums of rounded weights may be off by this much of a score.
+  static constexpr double kRounding = 1e-9;
   enum class Phase : std::uint8_t { kOpening, kDiving, kSearching, kDone };
 
   [[nodiscard]] Box box_of(const GlobalWindow& window) const;

@@ -152,6 +152,9 @@ std::int64_t Relocaliser::prepare(std::int64_t lookups) {
   if (!search_->is_taken()) {
     return 0;
   }
+  map_ = GlobalMap(drawing(options_));  // neither is needed any more
+  drawn_.clear();
+  grid_ = {};
   GlobalLocaliserOptions localiser;
   localiser.accept_travel_m = options_.accept_travel_m;
   localiser.accept_score = options_.accept_score;

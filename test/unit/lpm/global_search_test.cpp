@@ -1,47 +1,22 @@
 #include "lpm/global_search.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <random>
 
 #include <gmock/gmock.h>
 
-#include "lpm/global_search_run.hpp"
+#include "random_map.hpp"
 #include "support/ascii_grid.hpp"
 
 namespace cairn {
 namespace {
 
+using test::kCell_m;
+using test::random_map;
+using test::random_points;
 using testing::DoubleNear;
 using testing::IsEmpty;
 using testing::Pointwise;
 using testing::SizeIs;
-
-constexpr double kCell_m = 0.1;
-
-/// A small building with walls, free and unknown cells at random.
-OccupancyGrid random_map(std::mt19937* random) {
-  GridGeometry geometry;
-  geometry.cell_m = kCell_m;
-  geometry.origin_m = Vector2d(-1.3, 2.7);
-  geometry.width = 14 + static_cast<int>((*random)() % 20);
-  geometry.height = 12 + static_cast<int>((*random)() % 15);
-  OccupancyGrid map(geometry);
-  for (OccupancyGrid::LogOdds& cell : map.cells()) {
-    const auto kind = (*random)() % 10;
-    cell = static_cast<OccupancyGrid::LogOdds>(kind == 0 ? 300 : (kind < 8 ? -300 : 0));
-  }
-  return map;
-}
-
-std::vector<SurfacePoint> random_points(std::mt19937* random) {
-  std::uniform_real_distribution<double> any(-1.2, 1.2);
-  std::vector<SurfacePoint> points;
-  for (int i = 0; i < 12; ++i) {
-    points.push_back({{any(*random), any(*random)}, Vector2d(1.0, 0.0)});
-  }
-  return points;
-}
 
 /// The score as documented, cell by cell and without any pyramid.
 double obvious_score(const OccupancyGrid& map,
@@ -174,57 +149,6 @@ TEST(GlobalSearch, FindsWhatExhaustiveSearchFinds) {
     EXPECT_THAT(
         scores_of(found),
         Pointwise(DoubleNear(1e-9), best_scores(all_scores(map, points, options), 5, options)));
-  }
-}
-
-TEST(GlobalSearch, FindsTheSameAboveALeastScoreWithLessWork) {
-  const GlobalSearchOptions options = close_neighbours();
-  for (unsigned seed = 0; seed < 6; ++seed) {
-    SCOPED_TRACE(seed);
-    std::mt19937 random(seed);
-    const GlobalSearch search(random_map(&random), options);
-    const std::vector<SurfacePoint> points = random_points(&random);
-    GlobalSearchRun all(search, points, {20});
-    all.work(std::numeric_limits<std::int64_t>::max());
-    ASSERT_THAT(all.found(), SizeIs(20));
-    const double least = all.found()[3].score;
-    GlobalSearchRun some(search, points, {20, least});
-    some.work(std::numeric_limits<std::int64_t>::max());
-    std::vector<double> expected = scores_of(all.found());
-    expected.erase(std::remove_if(expected.begin(), expected.end(),
-                                  [&](double score) { return score < least; }),
-                   expected.end());
-    EXPECT_EQ(scores_of(some.found()), expected);
-    EXPECT_LT(some.lookups(), all.lookups());
-  }
-}
-
-TEST(GlobalSearch, FindsTheSameInSlicesAndEachIsBounded) {
-  constexpr std::int64_t kSlice = 500;
-  constexpr std::int64_t kRefinement = 5'000;
-  constexpr std::int64_t kOneBlock = 16 * 3 * 12 + 4 * 2 * 3 * 12;  // turned, and looked up
-  for (unsigned seed = 0; seed < 6; ++seed) {
-    SCOPED_TRACE(seed);
-    std::mt19937 random(seed);
-    const GlobalSearch search(random_map(&random), close_neighbours());
-    const std::vector<SurfacePoint> points = random_points(&random);
-    const std::vector<GlobalMatch> whole = search.find(points, {5});
-    GlobalSearchRun run(search, points, {5});
-    int slices = 0;
-    while (!run.is_done()) {
-      const std::int64_t before = run.lookups();
-      run.work(kSlice);
-      EXPECT_LT(run.lookups() - before, kSlice + 8 * kOneBlock + 5 * kRefinement);
-      ++slices;
-    }
-    EXPECT_GT(slices, 10);
-    ASSERT_EQ(run.found().size(), whole.size());
-    for (std::size_t i = 0; i < whole.size(); ++i) {
-      EXPECT_EQ(run.found()[i].raster_pose, whole[i].raster_pose);
-      EXPECT_EQ(run.found()[i].T_map_robot.mean, whole[i].T_map_robot.mean);
-      EXPECT_EQ(run.found()[i].T_map_robot.covariance, whole[i].T_map_robot.covariance);
-      EXPECT_EQ(run.found()[i].score, whole[i].score);
-    }
   }
 }
 
