@@ -37,7 +37,9 @@ Expected<LogReader> LogReader::open(const std::string& file) {
   using Opened = Expected<LogReader>;
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
-    return Opened::failure("cannot read " + file + ": no such file");
+    const bool is_folder = std::filesystem::is_directory(file, error);
+    return Opened::failure("cannot read " + file +
+                           (is_folder ? ": expected a file, got a folder" : ": no such file"));
   }
   const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file, error));
   FileHandle stream(std::fopen(file.c_str(), "rbe"));

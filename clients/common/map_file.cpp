@@ -98,6 +98,9 @@ void MapFile::Close::operator()(sqlite3* database) const {
 MapFile::MapFile(const std::filesystem::path& path) : path_(path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
+    if (std::filesystem::is_directory(path, error)) {
+      throw unreadable(path, "expected a file, got a folder");
+    }
     throw unreadable(path, std::filesystem::exists(path, error) ? "is no regular file"
                                                                 : "there is no such file");
   }

@@ -54,9 +54,11 @@ OptionObject describe(RelocalisationOptions* relocalisation) {
   object.flag("looks", &relocalisation->looks, "If not, the robot only goes on in a new local map.")
       .number("cell_m", &relocalisation->cell_m, {0.05, 1}, "Of the map that is searched.")
       .integer("max_cells", &relocalisation->max_cells, {1000, 2e7},
-               "A larger map is not searched: it takes 22 bytes a cell.")
+               "A larger map is not searched: it takes 40 bytes a cell.")
       .number("draw_every_m", &relocalisation->draw_every_m, {0, 10},
               "Travel between scans that are drawn.")
+      .integer("lookups_per_scan", &relocalisation->lookups_per_scan, {1e4, 1e9},
+               "Work done with each scan, in cells of the map looked up.")
       .integer("max_searches", &relocalisation->max_searches, {1, 100000},
                "Searches of the whole map before it is given up.")
       .number("accept_travel_m", &relocalisation->accept_travel_m, {0, 1000},

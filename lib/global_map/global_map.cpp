@@ -161,7 +161,7 @@ std::vector<std::uint8_t> GlobalMap::percent_of(TileIndex tile) const {
   return percent;
 }
 
-Result<OccupancyGrid> GlobalMap::to_grid(std::size_t max_cells) const {
+Result<OccupancyGrid> GlobalMap::empty_grid(std::size_t max_cells) const {
   GridGeometry geometry;
   geometry.cell_m = options_.cell_m;
   if (tiles_.empty()) {
@@ -183,12 +183,34 @@ Result<OccupancyGrid> GlobalMap::to_grid(std::size_t max_cells) const {
   geometry.width = static_cast<int>(columns);
   geometry.height = static_cast<int>(rows);
   geometry.origin_m = side * options_.cell_m * Vector2d(lower.x, lower.y);
-  OccupancyGrid grid(geometry);
-  for (const auto& [index, tile] : tiles_) {
-    for (int i = 0; i < side * side; ++i) {
-      const Cell cell{(index.x - lower.x) * side + i % side, (index.y - lower.y) * side + i / side};
-      grid.log_odds(cell) = static_cast<OccupancyGrid::LogOdds>(std::lround(
-          OccupancyGrid::kLogOddsPerUnit * log_odds_of(tile.cells[static_cast<std::size_t>(i)])));
+  return OccupancyGrid(geometry);
+}
+
+void GlobalMap::copy_tile(TileIndex index, OccupancyGrid* grid) const {
+  const auto found = tiles_.find(index);
+  if (found == tiles_.end()) {
+    return;
+  }
+  const int side = options_.tile_cells;
+  const Vector2d corner_m = side * options_.cell_m * Vector2d(index.x, index.y);
+  const Vector2d away = (corner_m - grid->geometry().origin_m) / options_.cell_m;
+  const Cell low{static_cast<int>(std::lround(away.x())), static_cast<int>(std::lround(away.y()))};
+  CAIRN_CHECK(grid->contains(low) && grid->contains({low.x + side - 1, low.y + side - 1}));
+  const Evidence* evidence = found->second.cells.data();
+  for (int y = low.y; y < low.y + side; ++y) {
+    OccupancyGrid::LogOdds* const row = &grid->log_odds({low.x, y});
+    for (int x = 0; x < side; ++x) {
+      row[x] = static_cast<OccupancyGrid::LogOdds>(
+          std::lround(OccupancyGrid::kLogOddsPerUnit * log_odds_of(*evidence++)));
+    }
+  }
+}
+
+Result<OccupancyGrid> GlobalMap::to_grid(std::size_t max_cells) const {
+  Result<OccupancyGrid> grid = empty_grid(max_cells);
+  if (grid) {
+    for (const auto& [index, tile] : tiles_) {
+      copy_tile(index, &*grid);
     }
   }
   return grid;

@@ -74,6 +74,11 @@ class GlobalMap {
   /// All tiles as one grid, for planning. kUnavailable where it would have more than `max_cells`.
   [[nodiscard]] Result<OccupancyGrid> to_grid(std::size_t max_cells = 100'000'000) const;
 
+  /// The same without any tile yet: what is unknown everywhere.
+  [[nodiscard]] Result<OccupancyGrid> empty_grid(std::size_t max_cells) const;
+  /// One tile of it. @pre the grid is of this map and of its tiles as they are
+  void copy_tile(TileIndex index, OccupancyGrid* grid) const;
+
   [[nodiscard]] const GlobalMapOptions& options() const { return options_; }
   /// How often a scan touched a cell that was not drawn for want of tiles.
   [[nodiscard]] std::int64_t cells_beyond_budget() const { return cells_beyond_budget_; }

@@ -4,42 +4,15 @@
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/LU>
-
 #include "base/check.hpp"
 #include "base/validator.hpp"
 
 namespace cairn {
 namespace {
 
-constexpr std::size_t kCapacity = 3;  // candidates kept, in searches' worth
-constexpr double kSame_m = 0.5;       // candidates closer than this are one
-constexpr double kSame_rad = 0.3;
-constexpr double kWindowInSigmas = 3.0;
-constexpr double kLeastWindow_m = 0.15;
-constexpr double kLeastWindow_rad = 0.05;
+/// So many key scans must have been searched for: with one of them a rival would have been found.
+constexpr int kLeastSearches = 3;
 constexpr double kUsualScoreGain = 0.05;  // per key scan
-
-bool is_same(const Pose2& a, const Pose2& b) {
-  return (a.translation() - b.translation()).norm() < kSame_m &&
-         std::abs(turn_between(a.theta(), b.theta())) < kSame_rad;
-}
-
-/// Two independent beliefs about one pose.
-GaussianPose fused(const GaussianPose& predicted, const GaussianPose& measured) {
-  const Eigen::Vector3d innovation(measured.mean.x() - predicted.mean.x(),
-                                   measured.mean.y() - predicted.mean.y(),
-                                   turn_between(predicted.mean.theta(), measured.mean.theta()));
-  const Matrix3d gain =
-      predicted.covariance * (predicted.covariance + measured.covariance).inverse();
-  const Eigen::Vector3d change = gain * innovation;
-  const Matrix3d keep = Matrix3d::Identity() - gain;
-  const Matrix3d covariance = keep * predicted.covariance * keep.transpose() +
-                              gain * measured.covariance * gain.transpose();
-  return {Pose2(predicted.mean.x() + change.x(), predicted.mean.y() + change.y(),
-                predicted.mean.theta() + change.z()),
-          0.5 * (covariance + covariance.transpose())};
-}
 
 }  // namespace
 
@@ -52,6 +25,7 @@ Status validate(const GlobalLocaliserOptions& options) {
       .within("accept_travel_m", options.accept_travel_m, 0.0, 1000.0)
       .within("accept_score", options.accept_score, 0.0, 1.0)
       .within("accept_margin", options.accept_margin, 0.0, 1.0)
+      .within("confirm_key_scans", options.confirm_key_scans, 1, 100)
       .within("drop_margin", options.drop_margin, 0.0, 1.0)
       .positive("follow_range_m", options.follow_range_m)
       .positive("follow_turn_rad", options.follow_turn_rad)
@@ -75,181 +49,162 @@ std::string_view to_string(Localisation state) {
 }
 
 GlobalLocaliser::GlobalLocaliser(const GlobalSearch& search, const GlobalLocaliserOptions& options)
-    : search_(search), options_(options) {
+    : search_(search), options_(options), candidates_(search, options) {
   CAIRN_CHECK(validate(options).ok());
 }
 
-double GlobalLocaliser::Candidate::mean_score() const {
-  return std::accumulate(scores.begin(), scores.end(), 0.0) /
-         static_cast<double>(std::max<std::size_t>(scores.size(), 1));
-}
-
 GlobalFix GlobalLocaliser::absorb(const std::vector<SurfacePoint>& points,
-                                  const GaussianPose& step) {
-  if (!key_scans_.empty()) {
+                                  const GaussianPose& step,
+                                  std::int64_t lookups) {
+  if (!candidates_.key_scans().empty()) {
     T_key_robot_ = compounded(T_key_robot_, step);
     travel_m_ += step.mean.translation().norm();
   }
-  if (is_key_scan()) {
+  const bool is_key = is_key_scan();
+  if (is_key) {
     add_key_scan(points);
-    return is_localised_ ? track() : search();
   }
-  GlobalFix fix = summary(is_localised_ ? Localisation::kTracking : Localisation::kSearching);
-  if (is_localised_) {
-    fix.T_map_robot = compounded(*fix.T_map_robot, T_key_robot_);
+  if (!is_localised_) {
+    return search(lookups);
   }
-  return fix;
+  return is_key ? track() : summary(Localisation::kTracking);
 }
 
 GlobalFix GlobalLocaliser::summary(Localisation state) const {
   GlobalFix fix;
   fix.state = state;
-  if (!candidates_.empty()) {
-    fix.score = candidates_.front().mean_score();
+  if (!candidates_.all().empty()) {
+    const PoseCandidates::Candidate& best = candidates_.all().front();
+    fix.score = best.mean_score();
     fix.margin = margin_;
     if (is_localised_) {
-      fix.T_map_robot = candidates_.front().T_map_robot;
+      fix.T_map_robot = compounded(best.T_map_last, T_key_robot_);
     }
   }
   return fix;
 }
 
 bool GlobalLocaliser::is_key_scan() const {
-  return key_scans_.empty() ||
+  return candidates_.key_scans().empty() ||
          T_key_robot_.mean.translation().norm() >= options_.key_scan_every_m ||
          std::abs(T_key_robot_.mean.theta()) >= options_.key_scan_every_rad;
 }
 
 void GlobalLocaliser::add_key_scan(const std::vector<SurfacePoint>& points) {
-  key_scans_.push_back({points, T_key_robot_, travel_m_});
+  candidates_.add_key_scan({points, T_key_robot_, travel_m_});
+  if (running_) {
+    running_->T_then_now = compounded(running_->T_then_now, T_key_robot_);
+  }
   T_key_robot_ = {};
-  if (key_scans_.size() > static_cast<std::size_t>(options_.key_scans)) {
-    key_scans_.pop_front();
-    for (Candidate& candidate : candidates_) {
-      candidate.scores.pop_front();
+  is_rank_due_ = true;
+}
+
+/// Candidates are followed first, so that they are up to date when others are found.
+GlobalFix GlobalLocaliser::search(std::int64_t lookups) {
+  while (lookups > 0) {
+    if (!candidates_.is_settled()) {
+      lookups -= candidates_.work(lookups);
+    } else if (is_rank_due_) {
+      is_rank_due_ = false;
+      candidates_.rank();
+      margin_ = candidates_.margin();
+      if (is_confirmed()) {
+        return accepted();
+      }
+    } else if (running_) {
+      lookups -= search_on(lookups);
+    } else if (is_begun_with_newest()) {
+      break;
+    } else {
+      begin_search();
     }
   }
+  return summary(Localisation::kSearching);
 }
 
-GlobalMatch GlobalLocaliser::followed(const std::vector<SurfacePoint>& points,
-                                      const GaussianPose& predicted) const {
-  const Matrix3d& covariance = predicted.covariance;
-  const double sigma_m = std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
-  const GlobalWindow window{
-      predicted.mean,
-      std::clamp(kWindowInSigmas * sigma_m, kLeastWindow_m, options_.follow_range_m),
-      std::clamp(kWindowInSigmas * std::sqrt(covariance(2, 2)), kLeastWindow_rad,
-                 options_.follow_turn_rad)};
-  const std::vector<GlobalMatch> best = search_.find(points, 1, window);
-  GlobalMatch match = best.empty() ? GlobalMatch{} : best.front();
-  // Along a corridor all poses are as good: there, the prediction knows better.
-  match.T_map_robot = best.empty() ? predicted : fused(predicted, match.T_map_robot);
-  return match;
+bool GlobalLocaliser::is_begun_with_newest() const {
+  return begun_ == candidates_.newest();
 }
 
-/// The candidates explain the newest key scan.
-void GlobalLocaliser::follow_candidates() {
-  const KeyScan& now = key_scans_.back();
-  for (Candidate& candidate : candidates_) {
-    const GlobalMatch match =
-        followed(now.points, compounded(candidate.T_map_robot, now.T_before_this));
-    candidate.T_map_robot = match.T_map_robot;
-    candidate.scores.push_back(match.score);
-  }
+void GlobalLocaliser::begin_search() {
+  // Who is to rival a pose that is accepted has some key scan with no less than this.
+  const double least_score = std::max(options_.accept_score - options_.accept_margin, 0.0);
+  running_.emplace(Search{GlobalSearchRun(search_, candidates_.key_scans().back().points,
+                                          {options_.candidates, least_score}),
+                          {}});
+  begun_ = candidates_.newest();
 }
 
-/// A candidate explains the key scans that were before it was thought of.
-GlobalLocaliser::Candidate GlobalLocaliser::looked_back(const GlobalMatch& match,
-                                                        std::size_t scans) const {
-  Candidate candidate{match.T_map_robot, {match.score}};
-  GaussianPose T_map_robot = match.T_map_robot;
-  for (std::size_t i = key_scans_.size() - 1; i > 0 && candidate.scores.size() < scans; --i) {
-    const GaussianPose step = inverted(key_scans_[i].T_before_this);
-    const GlobalMatch earlier = followed(key_scans_[i - 1].points, compounded(T_map_robot, step));
-    T_map_robot = earlier.T_map_robot;
-    candidate.scores.push_front(earlier.score);
-  }
-  return candidate;
-}
-
-void GlobalLocaliser::put_forward() {
-  ++searches_;
-  for (const GlobalMatch& match : search_.find(key_scans_.back().points, options_.candidates)) {
-    const bool is_new =
-        std::none_of(candidates_.begin(), candidates_.end(), [&](const Candidate& known) {
-          return is_same(known.T_map_robot.mean, match.T_map_robot.mean);
-        });
-    if (is_new) {
-      candidates_.push_back(looked_back(match, key_scans_.size()));
+std::int64_t GlobalLocaliser::search_on(std::int64_t lookups) {
+  const std::int64_t before = running_->run.lookups();
+  running_->run.work(lookups);
+  const std::int64_t done = std::max<std::int64_t>(running_->run.lookups() - before, 1);
+  if (running_->run.is_done()) {
+    ++searches_;
+    ++searches_since_start_;
+    for (const GlobalMatch& match : running_->run.found()) {
+      candidates_.put_forward(compounded(match.T_map_robot, running_->T_then_now));
     }
+    is_rank_due_ = true;
+    running_.reset();
   }
-}
-
-void GlobalLocaliser::rank() {
-  std::stable_sort(
-      candidates_.begin(), candidates_.end(),
-      [](const Candidate& a, const Candidate& b) { return a.mean_score() > b.mean_score(); });
-  std::vector<Candidate> kept;
-  for (Candidate& candidate : candidates_) {
-    const bool is_known = std::any_of(kept.begin(), kept.end(), [&](const Candidate& better) {
-      return is_same(better.T_map_robot.mean, candidate.T_map_robot.mean);
-    });
-    const bool is_hopeless =
-        !kept.empty() && candidate.mean_score() < kept.front().mean_score() - options_.drop_margin;
-    if (!is_known && !is_hopeless &&
-        kept.size() < kCapacity * static_cast<std::size_t>(options_.candidates)) {
-      kept.push_back(std::move(candidate));
-    }
-  }
-  candidates_ = std::move(kept);
-}
-
-double GlobalLocaliser::margin() const {
-  if (candidates_.empty()) {
-    return 0.0;
-  }
-  const double next = candidates_.size() > 1 ? candidates_[1].mean_score()
-                                             : candidates_[0].mean_score() - options_.drop_margin;
-  return candidates_[0].mean_score() - next;
+  return done;
 }
 
 bool GlobalLocaliser::is_acceptable() const {
-  return !candidates_.empty() &&
-         key_scans_.size() == static_cast<std::size_t>(options_.key_scans) &&
-         key_scans_.back().travel_m - key_scans_.front().travel_m >= options_.accept_travel_m &&
-         candidates_.front().mean_score() >= options_.accept_score &&
-         margin() >= options_.accept_margin;
+  const std::deque<PoseCandidates::KeyScan>& scans = candidates_.key_scans();
+  return !candidates_.all().empty() &&
+         scans.size() == static_cast<std::size_t>(options_.key_scans) &&
+         scans.back().travel_m - scans.front().travel_m >= options_.accept_travel_m &&
+         searches_since_start_ >= kLeastSearches &&
+         candidates_.all().front().mean_score() >= options_.accept_score &&
+         margin_ >= options_.accept_margin;
 }
 
-GlobalFix GlobalLocaliser::search() {
-  follow_candidates();
-  put_forward();
-  rank();
-  margin_ = margin();
+/// One lucky scan is soon over: a pose has to stay acceptable.
+bool GlobalLocaliser::is_confirmed() {
   if (!is_acceptable()) {
-    return summary(Localisation::kSearching);
+    confirmed_ = {};
+    return false;
   }
+  const std::int64_t best = candidates_.all().front().id;
+  if (confirmed_.candidate != best) {
+    confirmed_ = {best, candidates_.newest(), 0};
+  }
+  if (confirmed_.times == 0 || confirmed_.key_scan != candidates_.newest()) {
+    ++confirmed_.times;
+    confirmed_.key_scan = candidates_.newest();
+  }
+  return confirmed_.times >= options_.confirm_key_scans;
+}
+
+GlobalFix GlobalLocaliser::accepted() {
+  confirmed_ = {};
   is_localised_ = true;
-  usual_score_ = candidates_.front().mean_score();
-  candidates_.resize(1);
+  usual_score_ = candidates_.all().front().mean_score();
+  candidates_.keep_best();
+  running_.reset();
   return summary(Localisation::kAccepted);
 }
 
 GlobalFix GlobalLocaliser::track() {
-  follow_candidates();
-  if (is_still_there()) {
+  while (!candidates_.is_settled()) {
+    candidates_.work(std::numeric_limits<std::int64_t>::max());
+  }
+  if (!candidates_.all().empty() && is_still_there()) {
     return summary(Localisation::kTracking);
   }
-  const GlobalFix fix = summary(Localisation::kLost);
   is_localised_ = false;
+  const GlobalFix fix = summary(Localisation::kLost);
   candidates_.clear();
-  key_scans_.clear();
-  return {fix.state, std::nullopt, fix.score, fix.margin};
+  searches_since_start_ = 0;
+  T_key_robot_ = {};
+  return fix;
 }
 
 /// Whether the key scans of late still speak for where the robot is said to be.
 bool GlobalLocaliser::is_still_there() {
-  const std::deque<double>& scores = candidates_.front().scores;
+  const std::deque<double>& scores = candidates_.all().front().scores;
   const std::size_t late = std::max<std::size_t>(scores.size() / 3, 1);
   const double late_score =
       std::accumulate(scores.end() - static_cast<std::ptrdiff_t>(late), scores.end(), 0.0) /
@@ -267,9 +222,9 @@ bool GlobalLocaliser::is_still_there() {
 bool GlobalLocaliser::has_better(std::size_t late, double score) {
   ++searches_;
   const std::vector<GlobalMatch> matches =
-      search_.find(key_scans_.back().points, options_.candidates);
+      search_.find(candidates_.key_scans().back().points, {options_.candidates});
   return std::any_of(matches.begin(), matches.end(), [&](const GlobalMatch& match) {
-    return looked_back(match, late).mean_score() > score;
+    return candidates_.mean_score_of(match, late) > score;
   });
 }
 

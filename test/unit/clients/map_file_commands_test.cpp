@@ -290,7 +290,8 @@ TEST_F(MapFileCommands, AFileThatIsNoMapIsBadData) {
        std::map<std::string, std::string>{{"notes.txt", "is no cairn map"},
                                           {"other.db", "is no cairn map"},
                                           {"future.db", "format 3; this program reads format 2"},
-                                          {"missing.db", "there is no such file"}}) {
+                                          {"missing.db", "there is no such file"},
+                                          {"", "expected a file, got a folder"}}) {
     const Outcome status = run({"status", output(name.c_str())});
     EXPECT_EQ(status.status, 65) << name;
     EXPECT_THAT(status.err, HasSubstr(reason));

@@ -1,6 +1,7 @@
 #include "lpm/global_localiser.hpp"
 
 #include <functional>
+#include <limits>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -55,7 +56,8 @@ GlobalFix drive(GlobalLocaliser* localiser,
                 const std::vector<Wall>& walls,
                 int steps,
                 const std::function<Pose2(int)>& way,
-                const std::function<void(const GlobalFix&, const Pose2&)>& look = {}) {
+                const std::function<void(const GlobalFix&, const Pose2&)>& look = {},
+                std::int64_t lookups = std::numeric_limits<std::int64_t>::max()) {
   SimulatedLaser laser(walls, 5);
   std::mt19937 random(9);
   std::normal_distribution<double> noise(0.0, 0.01);
@@ -70,7 +72,7 @@ GlobalFix drive(GlobalLocaliser* localiser,
     }
     LaserScan scan = laser.scan(way(i), 0.2 * i);
     scan.max_range_m = 6.0;
-    fix = localiser->absorb(surface_points_of(scan, 0.05, 6.0), step);
+    fix = localiser->absorb(surface_points_of(scan, 0.05, 6.0), step, lookups);
     if (look) {
       look(fix, way(i));
     }
@@ -107,6 +109,23 @@ TEST(GlobalLocaliser, AcceptsTheRightPoseAndNeverAWrongOne) {
             });
   EXPECT_EQ(accepted, 1);
   EXPECT_EQ(last.state, Localisation::kTracking);
+}
+
+TEST(GlobalLocaliser, AcceptsTheRightPoseWhenItMaySearchOnlyALittleWithEachScan) {
+  const GlobalSearch search(map_of(building(), -13.0, 12.0));
+  GlobalLocaliser localiser(search, quick());
+  int accepted = 0;
+  drive(
+      &localiser, building(), 160, along_the_corridor,
+      [&](const GlobalFix& fix, const Pose2& truth) {
+        accepted += fix.state == Localisation::kAccepted;
+        if (fix.T_map_robot) {
+          EXPECT_LT((fix.T_map_robot->mean.translation() - truth.translation()).norm(), 0.3);
+        }
+      },
+      1'000'000);
+  EXPECT_EQ(accepted, 1);
+  EXPECT_LT(localiser.searches(), 30) << "not one for each key scan";
 }
 
 TEST(GlobalLocaliser, AcceptsNothingWhileTheRobotStands) {

@@ -10,6 +10,7 @@ namespace cairn {
 namespace {
 
 using test::SimulatedDrive;
+using test::Wall;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -74,6 +75,26 @@ TEST_F(Kidnap, EndsWhereTheRobotIs) {
   const Pose2 found = drive_.relocalised().front().T_global_robot.mean;
   EXPECT_LT((found.translation() - drive_.T_lpm_robot().translation()).norm(), 0.3);
   EXPECT_LT(std::abs(turn_between(found.theta(), drive_.T_lpm_robot().theta())), 0.1);
+}
+
+/// The furnished room, and another one where nobody has been yet.
+std::vector<Wall> with_another_room(const Vector2d& middle) {
+  std::vector<Wall> walls = test::furnished_room();
+  test::add_box(middle - Vector2d(4.5, 6.0), middle + Vector2d(3.5, 5.0), &walls);
+  test::add_box(middle + Vector2d(-3.5, 1.5), middle + Vector2d(-2.5, 3.0), &walls);
+  test::add_box(middle + Vector2d(2.5, -1.0), middle + Vector2d(3.5, 0.0), &walls);
+  walls.push_back({middle + Vector2d(1.5, 5.0), middle + Vector2d(3.5, 3.5)});
+  return walls;
+}
+
+TEST(KidnapIntoTheUnknown, IsNeverTakenForAReturn) {
+  const Vector2d middle(60.0, 7.0);
+  SimulatedDrive drive(with_another_room(middle));
+  drive.go(150);
+  drive.be_carried_by(Pose2(middle.x() + 0.4, middle.y() - 0.3, 2.5));
+  drive.go(400);
+  EXPECT_GE(drive.health().times_lost, 1);
+  EXPECT_THAT(drive.relocalised(), IsEmpty());
 }
 
 TEST_F(Kidnap, IsRecalledAsItWas) {

@@ -93,12 +93,6 @@ class SimulatedDrive {
   }
 
  private:
-  static ServiceOptions options() {
-    ServiceOptions options;
-    options.relocalisation.looks = true;
-    return options;
-  }
-
   void read(const Disturbance& disturbance) {
     time_s_ += 0.1;
     Readings readings;
@@ -153,7 +147,7 @@ class SimulatedDrive {
   std::vector<Wall> walls_;
   SimulatedLaser laser_;
   std::vector<Pose2> T_robot_lasers_ = {Pose2()};
-  MappingService service_{options()};
+  MappingService service_{ServiceOptions()};
   int step_ = 0;
   double time_s_ = 0.0;
   Pose2 T_world_odom_;

@@ -89,7 +89,8 @@ TEST_F(RecordedLog, AnEmptyOrForeignFileIsRefused) {
   EXPECT_THAT(LogReader::open(file_).error(), HasSubstr("is empty"));
   write(std::string("\x89PNG\r\n", 6));
   EXPECT_THAT(LogReader::open(file_).error(), HasSubstr("neither"));
-  EXPECT_THAT(LogReader::open("/nowhere/at.log").error(), HasSubstr("cannot read"));
+  EXPECT_THAT(LogReader::open("/nowhere/at.log").error(), HasSubstr("no such file"));
+  EXPECT_THAT(LogReader::open("/").error(), HasSubstr("expected a file, got a folder"));
 }
 
 TEST_F(RecordedLog, ACarmenScanComesAfterItsOdometry) {
