@@ -133,15 +133,55 @@ PlaceVector moved(const PlaceVector& places, const Eigen::VectorXd& step, double
   return after;
 }
 
+// Selected inversion (Takahashi, Fagan and Chin, 1973): the inverse where L has entries depends on
+// the inverse where L has entries, from the last column to the first.
 std::vector<Matrix3d> NormalEquations::place_covariances() const {
+  const Eigen::SparseMatrix<double>& lower = solver_.matrixL().nestedExpression();
+  const Eigen::VectorXd diagonal = solver_.vectorD();
+  const Eigen::Index columns = lower.cols();
+  const int* const begins = lower.outerIndexPtr();
+  const int* const rows = lower.innerIndexPtr();
+  const double* const factor = lower.valuePtr();
+  std::vector<double> inverse(static_cast<std::size_t>(lower.nonZeros()));  // as L, below diagonal
+  std::vector<double> inverse_diagonal(static_cast<std::size_t>(columns));
+  std::vector<double> sums;
+  for (Eigen::Index column = columns - 1; column >= 0; --column) {
+    const int begin = begins[column];
+    const int count = begins[column + 1] - begin;
+    sums.assign(static_cast<std::size_t>(count), 0.0);
+    for (int a = 0; a < count; ++a) {
+      const auto at_a = static_cast<std::size_t>(a);
+      const int row = rows[begin + a];
+      sums[at_a] -= factor[begin + a] * inverse_diagonal[at(row)];
+      // The rows after this one are among those of its column: walk along both.
+      int other = begins[row];
+      for (int b = a + 1; b < count; ++b) {
+        while (rows[other] != rows[begin + b]) {
+          ++other;
+        }
+        sums[at_a] -= factor[begin + b] * inverse[at(other)];
+        sums[static_cast<std::size_t>(b)] -= factor[begin + a] * inverse[at(other)];
+      }
+    }
+    double own = 1.0 / diagonal[column];
+    for (int a = 0; a < count; ++a) {
+      inverse[at(begin + a)] = sums[static_cast<std::size_t>(a)];
+      own -= factor[begin + a] * sums[static_cast<std::size_t>(a)];
+    }
+    inverse_diagonal[static_cast<std::size_t>(column)] = own;
+  }
   std::vector<Matrix3d> covariances(diagonal_.size(), Matrix3d::Zero());
-  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(descent_.size(), 3);
   for (std::size_t place = 1; place < covariances.size(); ++place) {
-    const Eigen::Index row = 3 * static_cast<Eigen::Index>(place) - 3;
-    unit.middleRows<3>(row).setIdentity();
-    const Matrix3d block = solver_.solve(unit).middleRows<3>(row);
-    unit.middleRows<3>(row).setZero();
-    covariances[place] = 0.5 * (block + block.transpose());
+    const int first = 3 * static_cast<int>(place) - 3;
+    for (int k = 0; k < 3; ++k) {
+      covariances[place](k, k) = inverse_diagonal[at(first + k)];
+      // What follows the diagonal of a column in L are the rows of the same place.
+      for (int m = k + 1; m < 3; ++m) {
+        const double entry = inverse[at(begins[first + k] + m - k - 1)];
+        covariances[place](k, m) = entry;
+        covariances[place](m, k) = entry;
+      }
+    }
   }
   return covariances;
 }

@@ -10,6 +10,7 @@
 #include "layout/damped_descent.hpp"
 #include "layout/linear_start.hpp"
 #include "layout/normal_equations.hpp"
+#include "layout/travel_residual.hpp"
 
 namespace cairn {
 namespace {
@@ -247,6 +248,40 @@ TEST(PlaceLayout, AWildTravelIsOutvotedWhereOutliersAreExpected) {
   robust.outlier_sigmas = 2.0;
   EXPECT_NEAR(layout_of(2, travels).T_global_place[1].x(), 5.8, 1e-6);
   EXPECT_NEAR(layout_of(2, travels, robust).T_global_place[1].x(), 5.05, 1e-3);
+}
+
+TEST(PlaceLayout, CovariancesAreTheBlocksOfTheInverseCurvature) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    constexpr int kPlaces = 40;
+    const World world = random_world(seed, kPlaces, 30);
+    LayoutOptions options;
+    options.covariances = true;
+    const PlaceLayout layout = layout_of(kPlaces, world.travels, options);
+    Eigen::MatrixXd curvature = Eigen::MatrixXd::Zero(3 * kPlaces, 3 * kPlaces);
+    for (const TravelConstraint& travel : world.travels) {
+      const auto place = [&](int number) {
+        const Pose2& pose = layout.T_global_place[static_cast<std::size_t>(number)];
+        return Eigen::Vector3d(pose.x(), pose.y(), pose.theta());
+      };
+      Matrix3d by_from;
+      Matrix3d by_to;
+      static_cast<void>(
+          residual_of(travel).at(place(travel.from), place(travel.to), &by_from, &by_to));
+      const auto add = [&](int a, int b, const Matrix3d& block) {
+        curvature.block<3, 3>(3 * a, 3 * b) += block;
+      };
+      add(travel.from, travel.from, by_from.transpose() * by_from);
+      add(travel.to, travel.to, by_to.transpose() * by_to);
+      add(travel.from, travel.to, by_from.transpose() * by_to);
+      add(travel.to, travel.from, by_to.transpose() * by_from);
+    }
+    const Eigen::Index free = 3 * kPlaces - 3;
+    const Eigen::MatrixXd inverse = curvature.bottomRightCorner(free, free).inverse();
+    for (Eigen::Index i = 0; i + 1 < kPlaces; ++i) {
+      const Matrix3d& found = layout.covariances[static_cast<std::size_t>(i) + 1];
+      EXPECT_LT((found - inverse.block<3, 3>(3 * i, 3 * i)).norm(), 1e-6 * found.norm());
+    }
+  }
 }
 
 TEST(PlaceLayout, UncertaintyGrowsAlongATreeAndShrinksByALoop) {
