@@ -124,7 +124,7 @@ CAIRN_SIGNATURE(cairn_lcm::status_t,
 CAIRN_SIGNATURE(cairn_lcm::tile_t, CAIRN_TILE);
 CAIRN_SIGNATURE(cairn_lcm::topology_t,
                 "q q q q q d q i i {" CAIRN_PLACE "}[8] i {" CAIRN_SEGMENT "}[10]");
-CAIRN_SIGNATURE(cairn_lcm::trajectory_t, "q q q i q[3] d[3] d[3] d[3]");
+CAIRN_SIGNATURE(cairn_lcm::trajectory_t, "q q q i q[3] d[3] d[3] d[3] i q[8] i d[10]");
 CAIRN_SIGNATURE(cairn_lcm::visit_places_t, "q q q q i q[4]");
 
 CAIRN_SIGNATURE(bot_core::planar_lidar_t, "q i f[1] i f[3] f f");

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <sstream>
@@ -76,6 +77,17 @@ bool has_both_ends(const cairn_lcm::topology_t& topology, const cairn_lcm::segme
          find_place(topology, segment.to_place) != nullptr;
 }
 
+std::string stamp_text(std::int64_t utime) {
+  // In whole numbers: a double would lose microseconds of today's dates.
+  const std::uint64_t size =
+      utime < 0 ? 0 - static_cast<std::uint64_t>(utime) : static_cast<std::uint64_t>(utime);
+  char stamp[40];
+  std::snprintf(stamp, sizeof stamp, "%s%llu.%06llu", utime < 0 ? "-" : "",
+                static_cast<unsigned long long>(size / 1'000'000),
+                static_cast<unsigned long long>(size % 1'000'000));
+  return stamp;
+}
+
 }  // namespace
 
 std::string topology_dot(const cairn_lcm::topology_t& topology) {
@@ -124,16 +136,22 @@ std::string topology_graphml(const cairn_lcm::topology_t& topology) {
 std::string trajectory_text(const cairn_lcm::trajectory_t& trajectory) {
   std::string text;
   for (std::size_t i = 0; i < trajectory.pose_utime.size(); ++i) {
-    // In whole numbers: a double would lose microseconds of today's dates.
-    const std::int64_t utime = trajectory.pose_utime[i];
-    const std::uint64_t size =
-        utime < 0 ? 0 - static_cast<std::uint64_t>(utime) : static_cast<std::uint64_t>(utime);
-    char stamp[40];
-    std::snprintf(stamp, sizeof stamp, "%s%llu.%06llu", utime < 0 ? "-" : "",
-                  static_cast<unsigned long long>(size / 1'000'000),
-                  static_cast<unsigned long long>(size % 1'000'000));
-    text += std::string(stamp) + " " + fixed(trajectory.x_m[i], 9) + " " +
+    text += stamp_text(trajectory.pose_utime[i]) + " " + fixed(trajectory.x_m[i], 9) + " " +
             fixed(trajectory.y_m[i], 9) + " " + fixed(trajectory.theta_rad[i], 9) + "\n";
+  }
+  return text;
+}
+
+std::string covariances_text(const cairn_lcm::trajectory_t& trajectory) {
+  constexpr std::size_t kEntries = 6;
+  std::string text = "# t xx xy yy x-theta y-theta theta-theta\n";
+  const std::size_t whole = trajectory.covariance_m2_rad2.size() / kEntries;
+  for (std::size_t i = 0; i < std::min(trajectory.key_utime.size(), whole); ++i) {
+    text += stamp_text(trajectory.key_utime[i]);
+    for (std::size_t k = 0; k < kEntries; ++k) {
+      text += " " + fixed(trajectory.covariance_m2_rad2[kEntries * i + k], 12);
+    }
+    text += "\n";
   }
   return text;
 }

@@ -23,6 +23,7 @@ struct MapOptions {
 struct ExportOptions {
   SourceOptions source;
   std::string trajectory;
+  std::string covariances;
   std::string svg;
   std::string dot;
   std::string graphml;
@@ -71,10 +72,10 @@ void write_map(const MapOptions& options, const Streams& streams) {
 
 void write_exports(const ExportOptions& options, const Streams& streams) {
   const bool has_graph = !options.svg.empty() || !options.dot.empty() || !options.graphml.empty();
-  if (options.trajectory.empty() && !has_graph) {
+  if (options.trajectory.empty() && options.covariances.empty() && !has_graph) {
     throw Failure(ExitCode::kUsage,
-                  "export: name at least one output: --trajectory, --topology-svg, --dot or "
-                  "--graphml");
+                  "export: name at least one output: --trajectory, --covariances, --topology-svg, "
+                  "--dot or --graphml");
   }
   const std::unique_ptr<MapSource> source = open_source(options.source);
   const auto write = [&](const std::string& path, const std::string& content) {
@@ -83,6 +84,9 @@ void write_exports(const ExportOptions& options, const Streams& streams) {
   };
   if (!options.trajectory.empty()) {
     write(options.trajectory, trajectory_text(source->trajectory()));
+  }
+  if (!options.covariances.empty()) {
+    write(options.covariances, covariances_text(source->trajectory()));
   }
   if (!has_graph) {
     return;
@@ -125,6 +129,8 @@ void add_export_command(CLI::App& app, const Streams& streams) {
   const auto options = std::make_shared<ExportOptions>();
   command->add_option("--trajectory", options->trajectory,
                       "Lines `t x y theta` (s, m, rad) for every scan");
+  command->add_option("--covariances", options->covariances,
+                      "Lines `t xx xy yy x-theta y-theta theta-theta` for every key scan");
   command->add_option("--topology-svg", options->svg, "Drawing of the topological map");
   command->add_option("--dot", options->dot, "Topological map for Graphviz");
   command->add_option("--graphml", options->graphml, "Topological map as GraphML");

@@ -21,4 +21,8 @@ namespace cairn::clients {
 /// global frame.
 [[nodiscard]] std::string trajectory_text(const cairn_lcm::trajectory_t& trajectory);
 
+/// Lines `t xx xy yy x-theta y-theta theta-theta`, in m^2, m rad and rad^2, at the key scans of the
+/// trajectory: how sure the poses are, as against the first of them.
+[[nodiscard]] std::string covariances_text(const cairn_lcm::trajectory_t& trajectory);
+
 }  // namespace cairn::clients

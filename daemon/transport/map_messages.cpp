@@ -172,6 +172,15 @@ cairn_lcm::trajectory_t to_trajectory(const MapState& state, const Sender& sende
     message.theta_rad.push_back(posed.T_global_robot.theta());
   }
   message.num_poses = count_of(message.pose_utime.size());
+  for (std::size_t k = 0; k < state.key_covariances.size(); ++k) {
+    message.key_utime.push_back(utime_of(state.key_scans[k]->scan->time));
+    const Matrix3d& c = state.key_covariances[k];
+    for (const double entry : {c(0, 0), c(0, 1), c(1, 1), c(0, 2), c(1, 2), c(2, 2)}) {
+      message.covariance_m2_rad2.push_back(entry);
+    }
+  }
+  message.num_key_poses = count_of(message.key_utime.size());
+  message.num_covariance_entries = count_of(message.covariance_m2_rad2.size());
   return message;
 }
 

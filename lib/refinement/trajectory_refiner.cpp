@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include "base/check.hpp"
 #include "base/validator.hpp"
 #include "layout/place_layout.hpp"
@@ -75,7 +77,9 @@ Result<PlaceLayout> settle(const Links& links,
     for (const Pose2& pose : *T_global_key) {
       start.T_global_place.push_back(T_global_first.inverse() * pose);
     }
-    layout = solve_layout(static_cast<int>(T_global_key->size()), all, {}, &start);
+    LayoutOptions options;
+    options.covariances = i + 1 == kReweightings;
+    layout = solve_layout(static_cast<int>(T_global_key->size()), all, options, &start);
     if (!layout) {
       return layout;
     }
@@ -89,6 +93,18 @@ Result<PlaceLayout> settle(const Links& links,
     }
   }
   return layout;
+}
+
+/// Covariances in a frame that is turned by so much, as seen from outside.
+std::vector<Matrix3d> turned(const std::vector<Matrix3d>& covariances, double angle_rad) {
+  Matrix3d turn = Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(angle_rad).toRotationMatrix();
+  std::vector<Matrix3d> seen;
+  for (const Matrix3d& covariance : covariances) {
+    const Matrix3d product = turn * covariance * turn.transpose();
+    seen.push_back(0.5 * (product + product.transpose()));
+  }
+  return seen;
 }
 
 /// All scans, bent between the key scans.
@@ -162,6 +178,7 @@ Result<RefinedTrajectory> TrajectoryRefiner::refine(const std::vector<Pose2>& T_
       return layout.error();
     }
     refined.chi2 = layout->chi2;
+    refined.key_covariances = turned(layout->covariances, T_global_robot.front().theta());
   }
   matcher_.forget_unused();
   const auto first_match = weights.end() - refined.matches;

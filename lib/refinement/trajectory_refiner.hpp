@@ -33,9 +33,12 @@ struct TrajectoryRefinementOptions {
 /// A trajectory after its refinement, and what that rested on.
 struct RefinedTrajectory {
   std::vector<Pose2> T_global_robot;  ///< As many as came.
-  int matches = 0;                    ///< Scans that lie on patches of another passage;
-  int let_go = 0;                     ///< of these, they contradict the others, and hardly count.
-  double chi2 = 0.0;                  ///< Of all that counts, as it counts.
+  /// Of (x, y, theta) of the key scans in the global frame, as against the first one, whose own is
+  /// zero. Empty where nothing was refined.
+  std::vector<Matrix3d> key_covariances;
+  int matches = 0;    ///< Scans that lie on patches of another passage;
+  int let_go = 0;     ///< of these, they contradict the others, and hardly count.
+  double chi2 = 0.0;  ///< Of all that counts, as it counts.
 };
 
 /// H(x) refined: scans are laid on small maps of other passages through the same surroundings, and

@@ -106,8 +106,10 @@ struct MapState {
   std::vector<PosedScan> trajectory;         ///< Every scan so far: H(x).
   /// Every scan and every odometry sample between scans, in the order of arrival.
   std::vector<TimedPose> poses;
-  Pose2 T_global_lpm;                     ///< Where the frame of the local map lies now.
-  KeyScans key_scans;                     ///< Of the trajectory.
+  Pose2 T_global_lpm;  ///< Where the frame of the local map lies now.
+  KeyScans key_scans;  ///< Of the trajectory.
+  /// By key scan, of its refined pose in the global frame, as against the first; may be empty.
+  std::vector<Matrix3d> key_covariances;
   std::vector<TravelConstraint> travels;  ///< What the layout rests on.
   std::vector<SamePlace> same_places;     ///< What ties the trajectory to itself.
 };

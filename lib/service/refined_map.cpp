@@ -93,6 +93,7 @@ std::shared_ptr<const MapState> MapRefiner::refined(const std::shared_ptr<const 
     for (std::size_t i = 0; i < moved.size(); ++i) {
       refined->trajectory[i].T_global_robot = moved[i];
     }
+    refined->key_covariances = trajectory->key_covariances;
     follow_scans(moved, &refined->poses);
     move_places(state->trajectory, moved, refined.get());
     refined->T_global_lpm = moved.back() * T_global_robot.back().inverse() * state->T_global_lpm;

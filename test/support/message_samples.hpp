@@ -337,6 +337,10 @@ inline cairn_lcm::trajectory_t sample() {
   message.num_poses = 2;
   message.pose_utime = {1, 2};
   message.x_m = message.y_m = message.theta_rad = {0.0, 1.0};
+  message.num_key_poses = 1;
+  message.key_utime = {1};
+  message.num_covariance_entries = 6;
+  message.covariance_m2_rad2 = {0.1, 0.0, 0.1, 0.0, 0.0, 0.1};
   return message;
 }
 

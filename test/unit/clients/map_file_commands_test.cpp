@@ -187,6 +187,15 @@ TEST_F(MapFileCommands, TrajectoryKeepsTheMicrosecondsOfTheLog) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 251);
 }
 
+TEST_F(MapFileCommands, CovariancesAreThoseOfTheKeyScans) {
+  const std::string file = output("covariances.txt");
+  EXPECT_EQ(run({"export", map_, "--covariances", file}).status, 0);
+  const std::string text = content_of(file);
+  EXPECT_THAT(text, StartsWith("# t xx xy yy x-theta y-theta theta-theta\n"));
+  EXPECT_THAT(text, HasSubstr(" 0.010000000000 0.002000000000 0.020000000000 0.000000000000 "
+                              "0.000000000000 0.003000000000\n"));
+}
+
 TEST_F(MapFileCommands, GridForRosIsFlippedAndHasItsOriginBesideIt) {
   ASSERT_EQ(run({"map", "--pgm", output("m.pgm"), map_}).status, 0);
 

@@ -241,6 +241,10 @@ cairn_lcm::trajectory_t sample_trajectory() {
     t.theta_rad.push_back(0.3 * std::cos(s));
   }
   t.num_poses = static_cast<std::int32_t>(t.x_m.size());
+  t.key_utime = {t.pose_utime.front(), t.pose_utime.back()};
+  t.num_key_poses = 2;
+  t.covariance_m2_rad2 = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.01, 0.002, 0.02, 0.0, 0.0, 0.003};
+  t.num_covariance_entries = 12;
   return t;
 }
 

@@ -94,6 +94,23 @@ TEST(TrajectoryRefiner, LetsGoOfWhatContradictsAllElse) {
   EXPECT_LT(laps.laps_apart_m(refined->T_global_robot), 0.05);
 }
 
+TEST(TrajectoryRefiner, TheSecondLapIsSurerForTheFirst) {
+  const TwoLaps laps;
+  TrajectoryRefiner with_matches(for_a_small_room());
+  TrajectoryRefinementOptions options;
+  options.matching.apart_m = 1000.0;  // Nothing is matched.
+  TrajectoryRefiner without_matches(options);
+  const Result<RefinedTrajectory> sure = with_matches.refine(laps.believed, laps.keys, {});
+  const Result<RefinedTrajectory> unsure = without_matches.refine(laps.believed, laps.keys, {});
+  ASSERT_TRUE(sure && unsure);
+  ASSERT_EQ(sure->key_covariances.size(), laps.keys.size());
+  EXPECT_EQ(sure->key_covariances.front(), Matrix3d::Zero());
+  for (std::size_t k = 1; k < laps.keys.size(); ++k) {
+    EXPECT_TRUE(is_positive_definite(sure->key_covariances[k])) << k;
+  }
+  EXPECT_LT(sure->key_covariances.back().trace(), 0.5 * unsure->key_covariances.back().trace());
+}
+
 TEST(TrajectoryRefiner, TheFirstPoseStaysWhereItIs) {
   const TwoLaps laps;
   TrajectoryRefiner refiner(for_a_small_room());

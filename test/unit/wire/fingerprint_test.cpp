@@ -57,7 +57,7 @@ TEST(Fingerprints, AreWhatTheyWere) {
       CAIRN_GOLDEN(cairn_lcm::status_t, 0xd70fd02675eaf4e4),
       CAIRN_GOLDEN(cairn_lcm::tile_t, 0xb87e5a344b6a8dfb),
       CAIRN_GOLDEN(cairn_lcm::topology_t, 0x5b420a8eee10c6d1),
-      CAIRN_GOLDEN(cairn_lcm::trajectory_t, 0x6fb8b1443a8c148f),
+      CAIRN_GOLDEN(cairn_lcm::trajectory_t, 0xa38319762c318f14),
       CAIRN_GOLDEN(cairn_lcm::visit_places_t, 0x83f45af9cc639abc),
   };
   for (const Golden& type : all) {
