@@ -133,6 +133,26 @@ TEST(IncrementalLayout, ALargeLoopThatClosesBadlyIsAsGoodAsAllAtOnce) {
   }
 }
 
+// Hypotheses are laid out though they are wrong: a closure may contradict everything.
+TEST(IncrementalLayout, UnderFalseClosuresIsNeverWorseThanAllAtOnce) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const test::SimulatedTour tour = test::simulated_tour({40, seed, 3.0, 0.5, 0.1, 0.02});
+    IncrementalLayout layout = layout_of(tour.travels);
+    for (int i = 0; i < 3; ++i) {
+      const int from = static_cast<int>(random() % 40);
+      const int to = (from + 1 + static_cast<int>(random() % 39)) % 40;
+      ASSERT_TRUE(layout.add_travel(
+          travel(from, to, 1.0, 0.0, 0.001 * static_cast<double>(random() % 6000))));
+      const Result<PlaceLayout> batch = solve_layout(layout.place_count(), layout.travels());
+      if (batch) {
+        EXPECT_LE(layout.chi2(), (1.0 + 1e-6) * batch->chi2 + 1e-6);
+      }
+    }
+  }
+}
+
 TEST(IncrementalLayout, PlacesThatHangOnOthersGoWithThem) {
   IncrementalLayout layout = layout_of({travel(0, 1, 2.0, 0.0, 0.0), travel(1, 2, 0.0, 2.0, 0.0),
                                         travel(2, 3, 0.0, 1.0, 1.0), travel(4, 3, 1.0, 0.0, 0.3)});
