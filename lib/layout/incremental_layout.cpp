@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "base/check.hpp"
 #include "layout/displacement.hpp"
 #include "layout/layout_attempt.hpp"
 #include "layout/stale_places.hpp"
@@ -23,6 +22,7 @@ constexpr double kFarTurn_rad = 0.3;
 /// unless the new travel adds no more to chi2 than one that is true may: 3 degrees of freedom.
 constexpr double kPlausibleChi2 = 30.0;
 constexpr int kMaxPasses = 20;
+constexpr int kMaxPlaces = 1'000'000;
 
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);
@@ -104,6 +104,10 @@ void IncrementalLayout::append(const TravelConstraint& travel) {
 
 Status IncrementalLayout::add_place(const TravelConstraint& travel) {
   const int place = place_count();
+  if (place >= kMaxPlaces) {
+    return Error{ErrorCode::kInvalidValue,
+                 "layout: expected at most " + std::to_string(kMaxPlaces) + " places"};
+  }
   if (const Status sound = check(travel, place + 1); !sound) {
     return sound;
   }
@@ -135,22 +139,25 @@ Status IncrementalLayout::add_travel(const TravelConstraint& travel) {
   if (travel.from == travel.to) {
     return {};
   }
-  const PlaceVector before = global_places_;
+  State before{tree_, global_places_, linearised_, steps_, is_active_};
   std::vector<int> touched;
   activate_way_to(travel.from, &touched);
   activate_way_to(travel.to, &touched);
   const Rest rest = relax(touched);
   if (rest == Rest::kNearBy ||
       (rest == Rest::kFarOff &&
-       chi2() - chi2_of(before, graph_.travel_count() - 1) <= kPlausibleChi2)) {
+       chi2() - chi2_of(before.global_places, graph_.travel_count() - 1) <= kPlausibleChi2)) {
     return {};
   }
   const Status solved = start_anew(rest == Rest::kFarOff);
   if (!solved) {
     travels_.pop_back();
     graph_.remove_last_travel();
-    global_places_ = before;
-    CAIRN_CHECK(linearise_all());  // It was positive definite before.
+    tree_ = std::move(before.tree);
+    global_places_ = std::move(before.global_places);
+    linearised_ = std::move(before.linearised);
+    steps_ = std::move(before.steps);
+    is_active_ = std::move(before.is_active);
   }
   return solved;
 }

@@ -46,8 +46,8 @@ class IncrementalLayout {
   [[nodiscard]] int restart_count() const { return restart_count_; }
 
   /// Adds place number place_count() by the first travel to it, or from it.
-  /// Errors: kInvalidValue where it does not join a known place and that one, or is no sound
-  /// displacement; nothing is added then.
+  /// Errors: kInvalidValue where it does not join a known place and that one, is no sound
+  /// displacement, or would be place 1,000,000; nothing is added then.
   [[nodiscard]] Status add_place(const TravelConstraint& travel);
 
   /// Adds a travel between known places; one from a place to itself counts and moves nothing.
@@ -56,6 +56,14 @@ class IncrementalLayout {
   [[nodiscard]] Status add_travel(const TravelConstraint& travel);
 
  private:
+  /// What a travel changes, and is brought back where it cannot be laid out.
+  struct State {
+    CliqueTree tree;
+    PlaceVector global_places;
+    PlaceVector linearised;
+    PlaceVector steps;
+    std::vector<char> is_active;
+  };
   /// Where a solution has come to rest; far off, it may be in the wrong valley.
   enum class Rest { kNearBy, kFarOff, kNone };
 
