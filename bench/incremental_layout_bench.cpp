@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <random>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -43,6 +44,24 @@ struct Times {
 
 double now_ms() {
   return 1e3 * lab::cpu_time_s();
+}
+
+/// A way of so many new places from the last place around a circle, back to that place.
+void append_loop(int place_count, int first, std::vector<TravelConstraint>* travels) {
+  constexpr int kPlaces = 1000;
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  Matrix3d covariance = Matrix3d::Zero();
+  covariance.diagonal() << 0.0025, 0.0025, 0.0001;
+  for (int i = 0; i < kPlaces; ++i) {
+    const int from = i == 0 ? first : place_count + i - 1;
+    const int to = i + 1 == kPlaces ? first : place_count + i;
+    travels->push_back({from,
+                        to,
+                        {Pose2(10.0 + 0.05 * normal(random), 0.05 * normal(random),
+                               2.0 * kPi / kPlaces + 0.01 * normal(random)),
+                         covariance}});
+  }
 }
 
 /// Travels ordered by their later place, so that each new place comes by one of its travels.
@@ -101,6 +120,39 @@ int feed_file(const std::string& file) {
               static_cast<int>(graph->ids.size()));
 }
 
+/// One loop of 1,000 new places on top of the map.
+int close_a_large_loop(std::vector<TravelConstraint> travels, int place_count) {
+  for (const int first : {0, place_count / 2, place_count - 1}) {
+    std::vector<TravelConstraint> loop;
+    append_loop(place_count, first, &loop);
+    IncrementalLayout layout;
+    for (const TravelConstraint& travel : in_order(travels)) {
+      const bool is_new = std::max(travel.from, travel.to) == layout.place_count();
+      if (!(is_new ? layout.add_place(travel) : layout.add_travel(travel))) {
+        return 1;
+      }
+    }
+    for (std::size_t i = 0; i + 1 < loop.size(); ++i) {
+      if (!layout.add_place(loop[i])) {
+        return 1;
+      }
+    }
+    const int restarts_before = layout.restart_count();
+    const double begin_ms = now_ms();
+    const Status closed = layout.add_travel(loop.back());
+    const double closed_ms = now_ms() - begin_ms;
+    travels.insert(travels.end(), loop.begin(), loop.end());
+    const Result<PlaceLayout> batch = solve_layout(layout.place_count(), travels);
+    travels.resize(travels.size() - loop.size());
+    std::printf(
+        "  a loop of 1000 places at place %d closed in %.2f ms, %d restarts, chi2 %.10g, "
+        "batch %.10g\n",
+        first, closed ? closed_ms : -1.0, layout.restart_count() - restarts_before, layout.chi2(),
+        batch ? batch->chi2 : -1.0);
+  }
+  return 0;
+}
+
 int feed_tour(int place_count) {
   int status = 0;
   for (const double preference : {0.9, 0.5}) {
@@ -109,6 +161,9 @@ int feed_tour(int place_count) {
     options.preference = preference;
     const test::SimulatedTour tour = test::simulated_tour(options);
     status |= feed("tour, preference " + std::to_string(preference), tour.travels, place_count);
+    if (place_count > 2000) {
+      status |= close_a_large_loop(tour.travels, place_count);
+    }
   }
   return status;
 }

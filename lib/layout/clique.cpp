@@ -1,5 +1,7 @@
 #include "layout/clique.hpp"
 
+#include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <Eigen/Cholesky>

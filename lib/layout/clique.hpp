@@ -53,12 +53,16 @@ struct LinearisedTravels {
   const std::vector<char>& is_active;  ///< By place: whether it is part of the equations.
 };
 
-/// Makes cliques; keeps its memory from one to the next.
+/// Makes cliques; keeps its memory from one to the next. A copy begins with none of its own.
 class CliqueMaker {
  public:
+  CliqueMaker() = default;
+  CliqueMaker(const CliqueMaker& /*other*/) {}
+  CliqueMaker& operator=(const CliqueMaker& /*other*/) { return *this; }
+  ~CliqueMaker() = default;
+
   /// Adds up the travels of the places to eliminate, and what the children left over, and
   /// eliminates.
-  /// @param slots by place, all -1, as they are again afterwards
   /// @return null where the curvature is not positive definite
   [[nodiscard]] CliquePtr make(std::vector<int> places,
                                int eliminated,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <queue>
 
 namespace cairn {
@@ -80,6 +81,13 @@ class Elimination {
   std::priority_queue<std::uint64_t, std::vector<std::uint64_t>, std::greater<>> open_;
 };
 
+/// A clique that takes up places from the last to the first.
+struct Growing {
+  std::vector<int> eliminated;  ///< The last first.
+  std::vector<int> left;
+  int parent = -1;
+};
+
 }  // namespace
 
 std::vector<CliqueShape> plan_cliques(std::vector<std::vector<int>> neighbors,
@@ -91,27 +99,29 @@ std::vector<CliqueShape> plan_cliques(std::vector<std::vector<int>> neighbors,
     position[at(order[i])] = static_cast<int>(i);
   }
   const auto is_earlier = [&](int a, int b) { return position[at(a)] < position[at(b)]; };
-  std::vector<CliqueShape> shapes;  // From the roots down; eliminated places from the last.
-  std::vector<int> shape_of(order.size(), -1);
+  std::vector<Growing> grown;  // From the roots down.
+  std::vector<int> grown_of(order.size(), -1);
   for (auto place = order.rbegin(); place != order.rend(); ++place) {
     std::vector<int> left = elimination.neighbors()[at(*place)];
-    std::sort(left.rbegin(), left.rend(), is_earlier);  // Backwards until all are there.
-    const int parent = left.empty() ? -1 : shape_of[at(left.back())];
-    if (parent >= 0 && shapes[at(parent)].places.back() == left.back() &&
-        shapes[at(parent)].places.size() == left.size()) {
-      shapes[at(parent)].places.push_back(*place);
-      ++shapes[at(parent)].eliminated;
-      shape_of[at(*place)] = parent;
-      continue;
+    std::sort(left.begin(), left.end(), is_earlier);
+    const int parent = left.empty() ? -1 : grown_of[at(left.front())];
+    if (parent >= 0 && grown[at(parent)].eliminated.back() == left.front() &&
+        grown[at(parent)].eliminated.size() + grown[at(parent)].left.size() == left.size()) {
+      grown[at(parent)].eliminated.push_back(*place);
+      grown_of[at(*place)] = parent;
+    } else {
+      grown_of[at(*place)] = static_cast<int>(grown.size());
+      grown.push_back({{*place}, std::move(left), parent});
     }
-    shape_of[at(*place)] = static_cast<int>(shapes.size());
-    left.push_back(*place);
-    shapes.push_back({std::move(left), 1, parent});
   }
-  std::reverse(shapes.begin(), shapes.end());
-  for (CliqueShape& shape : shapes) {
-    std::reverse(shape.places.begin(), shape.places.end());
-    shape.parent = shape.parent < 0 ? -1 : static_cast<int>(shapes.size()) - 1 - shape.parent;
+  std::vector<CliqueShape> shapes;
+  shapes.reserve(grown.size());
+  for (auto clique = grown.rbegin(); clique != grown.rend(); ++clique) {
+    std::vector<int> places(clique->eliminated.rbegin(), clique->eliminated.rend());
+    places.insert(places.end(), clique->left.begin(), clique->left.end());
+    const int parent =
+        clique->parent < 0 ? -1 : static_cast<int>(grown.size()) - 1 - clique->parent;
+    shapes.push_back({std::move(places), static_cast<int>(clique->eliminated.size()), parent});
   }
   return shapes;
 }

@@ -1,6 +1,8 @@
 #include "layout/clique_tree.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "layout/clique_plan.hpp"
@@ -10,6 +12,43 @@ namespace {
 
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);
+}
+
+/// The graph of some places: a travel joins two, and a tree below joins all that it leaves over.
+/// @param number by place, its number among `places`, or -1
+std::vector<std::vector<int>> neighbors_of(const std::vector<int>& places,
+                                           const std::vector<int>& number,
+                                           const std::vector<CliquePtr>& below,
+                                           const TravelGraph& graph) {
+  std::vector<std::vector<int>> neighbors(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    graph.for_each_travel_of(places[i], [&](int index) {
+      const TravelResidual& travel = graph.travel(index);
+      neighbors[i].push_back(number[at(travel.from == places[i] ? travel.to : travel.from)]);
+    });
+  }
+  for (const CliquePtr& tree : below) {
+    for (std::size_t a = at(tree->eliminated); a < tree->places.size(); ++a) {
+      std::vector<int>& list = neighbors[at(number[at(tree->places[a])])];
+      std::transform(tree->places.begin() + tree->eliminated, tree->places.end(),
+                     std::back_inserter(list), [&](int place) { return number[at(place)]; });
+    }
+  }
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    std::vector<int>& list = neighbors[i];
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    list.erase(std::remove_if(list.begin(), list.end(),
+                              [&](int other) { return other < 0 || other == static_cast<int>(i); }),
+               list.end());
+  }
+  return neighbors;
+}
+
+/// Also where it is not finite.
+bool is_beyond(const Eigen::Vector3d& change, const StepTolerance& tolerance) {
+  return !(change.head<2>().squaredNorm() <= tolerance.m * tolerance.m &&
+           std::abs(change.z()) <= tolerance.rad);
 }
 
 }  // namespace
@@ -108,82 +147,58 @@ std::vector<CliquePtr> CliqueTree::take_marked() {
   return marked;
 }
 
-/// What was marked and what is new as one graph, in which a tree below is a clique of what it
-/// leaves over.
+/// What was marked and what is new, as one graph to be planned.
 std::vector<CliqueTree::Task> CliqueTree::plan(const std::vector<CliquePtr>& marked,
                                                const std::vector<int>& touched,
-                                               const TravelGraph& graph) {
+                                               const TravelGraph& graph) const {
   std::vector<int> places;
   std::vector<CliquePtr> below;
   for (const CliquePtr& clique : marked) {
     places.insert(places.end(), clique->places.begin(),
                   clique->places.begin() + clique->eliminated);
-    for (const CliquePtr& child : clique->children) {
-      if (is_marked_[at(child->places.front())] == 0) {
-        below.push_back(child);
-      }
-    }
+    std::copy_if(
+        clique->children.begin(), clique->children.end(), std::back_inserter(below),
+        [&](const CliquePtr& child) { return is_marked_[at(child->places.front())] == 0; });
   }
-  for (const int place : touched) {
-    if (!is_known(place)) {
-      places.push_back(place);
-    }
-  }
+  std::copy_if(touched.begin(), touched.end(), std::back_inserter(places),
+               [&](int place) { return !is_known(place); });
   std::sort(places.begin(), places.end());
   std::vector<int> number(head_of_.size(), -1);
   for (std::size_t i = 0; i < places.size(); ++i) {
     number[at(places[i])] = static_cast<int>(i);
-  }
-  std::vector<std::vector<int>> neighbors(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    graph.for_each_travel_of(places[i], [&](int index) {
-      const TravelResidual& travel = graph.travel(index);
-      const int other = number[at(travel.from == places[i] ? travel.to : travel.from)];
-      if (other >= 0 && other != static_cast<int>(i)) {
-        neighbors[i].push_back(other);
-      }
-    });
-  }
-  for (const CliquePtr& child : below) {
-    for (std::size_t a = at(child->eliminated); a < child->places.size(); ++a) {
-      for (std::size_t b = at(child->eliminated); b < child->places.size(); ++b) {
-        if (a != b) {
-          neighbors[at(number[at(child->places[a])])].push_back(number[at(child->places[b])]);
-        }
-      }
-    }
-  }
-  for (std::vector<int>& list : neighbors) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
   }
   std::vector<char> comes_last(places.size(), 0);
   for (const int place : touched) {
     comes_last[at(number[at(place)])] = 1;
   }
   std::vector<Task> tasks;
-  std::vector<int> task_of(places.size(), -1);
-  std::vector<int> order(places.size(), 0);
-  int eliminated_before = 0;
-  for (CliqueShape& shape : plan_cliques(std::move(neighbors), comes_last)) {
-    for (int slot = 0; slot < shape.eliminated; ++slot) {
-      task_of[at(shape.places[at(slot)])] = static_cast<int>(tasks.size());
-      order[at(shape.places[at(slot)])] = eliminated_before++;
-    }
+  for (CliqueShape& shape : plan_cliques(neighbors_of(places, number, below, graph), comes_last)) {
     for (int& place : shape.places) {
       place = places[at(place)];
     }
     tasks.push_back({std::move(shape.places), shape.eliminated, shape.parent, {}});
   }
-  for (CliquePtr& child : below) {
-    int first = -1;
-    for (std::size_t slot = at(child->eliminated); slot < child->places.size(); ++slot) {
-      const int place = number[at(child->places[slot])];
-      first = first < 0 || order[at(place)] < order[at(first)] ? place : first;
-    }
-    tasks[at(task_of[at(first)])].children.push_back(std::move(child));
-  }
+  hang_below(std::move(below), &tasks);
   return tasks;
+}
+
+/// Each tree goes below the clique that eliminates the first of what it leaves over.
+void CliqueTree::hang_below(std::vector<CliquePtr> below, std::vector<Task>* tasks) const {
+  std::vector<int> task_of(head_of_.size(), -1);
+  std::vector<int> order(head_of_.size(), -1);
+  int eliminated_before = 0;
+  for (std::size_t task = 0; task < tasks->size(); ++task) {
+    for (int slot = 0; slot < (*tasks)[task].eliminated; ++slot) {
+      const int place = (*tasks)[task].places[at(slot)];
+      task_of[at(place)] = static_cast<int>(task);
+      order[at(place)] = eliminated_before++;
+    }
+  }
+  for (CliquePtr& tree : below) {
+    const int first = *std::min_element(tree->places.begin() + tree->eliminated, tree->places.end(),
+                                        [&](int a, int b) { return order[at(a)] < order[at(b)]; });
+    (*tasks)[at(task_of[at(first)])].children.push_back(std::move(tree));
+  }
 }
 
 std::vector<CliqueTree::Task> CliqueTree::same_again(const std::vector<CliquePtr>& marked) const {
@@ -230,7 +245,8 @@ bool CliqueTree::carry_out(std::vector<Task> tasks,
   return true;
 }
 
-std::vector<int> CliqueTree::solve(double tolerance, PlaceVector* steps) {
+std::vector<int> CliqueTree::solve(const std::vector<StepTolerance>& tolerances,
+                                   PlaceVector* steps) {
   std::vector<int> changed;
   std::vector<char> has_changed(head_of_.size(), 0);
   std::vector<const Clique*> open;
@@ -252,7 +268,7 @@ std::vector<int> CliqueTree::solve(double tolerance, PlaceVector* steps) {
     for (int slot = 0; slot < clique.eliminated; ++slot) {
       const int place = clique.places[at(slot)];
       const Eigen::Vector3d step = solved.segment<3>(3 * slot);
-      if ((step - (*steps)[at(place)]).lpNorm<Eigen::Infinity>() > tolerance) {
+      if (is_beyond(step - (*steps)[at(place)], tolerances[at(place)])) {
         (*steps)[at(place)] = step;
         has_changed[at(place)] = 1;
         changed.push_back(place);

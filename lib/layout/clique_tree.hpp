@@ -1,10 +1,17 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "layout/clique.hpp"
 
 namespace cairn {
+
+/// Changes of a step that are not worth following, by place.
+struct StepTolerance {
+  double m = 0.0;
+  double rad = 0.0;
+};
 
 /// The normal equations of a layout, factored, and changed in proportion to what changes: the
 /// cliques above are made anew, the trees below are kept. Copies share their cliques. Part of the
@@ -28,11 +35,13 @@ class CliqueTree {
                                  const LinearisedTravels& travels,
                                  CliqueMaker* maker);
 
-  /// Solves for the steps where they change by more than the tolerance, m and rad, in what was made
-  /// anew since the last time and below it.
+  /// Solves for the steps where they change by more than the tolerance, in what was made anew since
+  /// the last time and below it.
+  /// @param tolerances by place
   /// @param steps by place, of (x, y, theta) from where its travels were linearised
   /// @return the places whose steps changed
-  [[nodiscard]] std::vector<int> solve(double tolerance, PlaceVector* steps);
+  [[nodiscard]] std::vector<int> solve(const std::vector<StepTolerance>& tolerances,
+                                       PlaceVector* steps);
 
   /// Takes all places out.
   void clear();
@@ -56,7 +65,8 @@ class CliqueTree {
   [[nodiscard]] std::vector<CliquePtr> take_marked();
   [[nodiscard]] std::vector<Task> plan(const std::vector<CliquePtr>& marked,
                                        const std::vector<int>& touched,
-                                       const TravelGraph& graph);
+                                       const TravelGraph& graph) const;
+  void hang_below(std::vector<CliquePtr> below, std::vector<Task>* tasks) const;
   [[nodiscard]] std::vector<Task> same_again(const std::vector<CliquePtr>& marked) const;
   [[nodiscard]] bool carry_out(std::vector<Task> tasks,
                                const LinearisedTravels& travels,

@@ -2,27 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
-#include "base/check.hpp"
 #include "layout/displacement.hpp"
 #include "layout/layout_attempt.hpp"
+#include "layout/stale_places.hpp"
 
 namespace cairn {
 namespace {
 
-/// Steps that change by less are left as they are, m and rad.
-constexpr double kStepTolerance = 1e-6;
-/// A travel is expanded anew where the heading of its departure has turned by more since,
-constexpr double kStaleTurn_rad = 1e-4;
-/// or where the expansion is off by more standard deviations.
-constexpr double kStaleSigmas = 1e-4;
-/// Beside places that are expanded anew, this share of both is enough: else the border creeps.
-constexpr double kBorderShare = 0.5;
-/// A solution that turns a place by more may be in the wrong valley.
+/// Steps that change no travel by more standard deviations are left as they are.
+constexpr double kStepSigmas = 1e-4;
+/// Of a place without travels, m and rad.
+constexpr double kGreatestStep = 1e-3;
+/// A solution that turns a place by more may be in the wrong valley,
 constexpr double kFarTurn_rad = 0.3;
+/// unless the new travel adds no more to chi2 than one that is true may: 3 degrees of freedom.
+constexpr double kPlausibleChi2 = 30.0;
 constexpr int kMaxPasses = 20;
+constexpr int kMaxPlaces = 1'000'000;
 
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);
@@ -36,22 +36,6 @@ Pose2 pose(const Eigen::Vector3d& place) {
   return {place.x(), place.y(), place.z()};
 }
 
-/// A residual is linear in the places but for the heading of departure: as that turns, it is off by
-/// the turn times what the way has changed, and by half its square times the way.
-bool is_stale(const TravelResidual& travel,
-              const Eigen::Vector3d& step_from,
-              const Eigen::Vector3d& step_to,
-              double share) {
-  const double turn_rad = std::abs(step_from.z());
-  if (turn_rad > share * kStaleTurn_rad) {
-    return true;
-  }
-  const double change_m = (step_to - step_from).head<2>().norm();
-  const double way_m = travel.measured.head<2>().norm();
-  const double per_m = travel.whitening.topLeftCorner<2, 2>().norm();
-  return per_m * turn_rad * (change_m + 0.5 * turn_rad * way_m) > share * kStaleSigmas;
-}
-
 }  // namespace
 
 IncrementalLayout::IncrementalLayout() {
@@ -60,6 +44,7 @@ IncrementalLayout::IncrementalLayout() {
   global_places_.push_back(Eigen::Vector3d::Zero());
   linearised_ = steps_ = global_places_;
   is_active_.push_back(1);
+  tolerances_.push_back({kGreatestStep, kGreatestStep});
 }
 
 Pose2 IncrementalLayout::T_global_place(int place) const {
@@ -76,10 +61,15 @@ std::vector<Pose2> IncrementalLayout::T_global_place() const {
 }
 
 double IncrementalLayout::chi2() const {
+  return chi2_of(global_places_, graph_.travel_count());
+}
+
+/// Of the first travels.
+double IncrementalLayout::chi2_of(const PlaceVector& places, int travel_count) const {
   double chi2 = 0.0;
-  for (int i = 0; i < graph_.travel_count(); ++i) {
+  for (int i = 0; i < travel_count; ++i) {
     const TravelResidual& travel = graph_.travel(i);
-    chi2 += travel.at(global_places_[at(travel.from)], global_places_[at(travel.to)]).squaredNorm();
+    chi2 += travel.at(places[at(travel.from)], places[at(travel.to)]).squaredNorm();
   }
   return chi2;
 }
@@ -101,10 +91,23 @@ Status IncrementalLayout::check(const TravelConstraint& travel, int place_count)
 void IncrementalLayout::append(const TravelConstraint& travel) {
   travels_.push_back(travel);
   graph_.add_travel(residual_of(travel));
+  const TravelResidual& residual = graph_.travel(graph_.travel_count() - 1);
+  const double per_m = residual.whitening.leftCols<2>().norm();
+  const double per_rad =
+      residual.whitening.col(2).norm() + per_m * residual.measured.head<2>().norm();
+  for (const int place : {travel.from, travel.to}) {
+    StepTolerance& tolerance = tolerances_[at(place)];
+    tolerance.m = std::min(tolerance.m, kStepSigmas / per_m);
+    tolerance.rad = std::min(tolerance.rad, kStepSigmas / per_rad);
+  }
 }
 
 Status IncrementalLayout::add_place(const TravelConstraint& travel) {
   const int place = place_count();
+  if (place >= kMaxPlaces) {
+    return Error{ErrorCode::kInvalidValue,
+                 "layout: expected at most " + std::to_string(kMaxPlaces) + " places"};
+  }
   if (const Status sound = check(travel, place + 1); !sound) {
     return sound;
   }
@@ -116,6 +119,7 @@ Status IncrementalLayout::add_place(const TravelConstraint& travel) {
   }
   first_travel_.push_back(static_cast<int>(travels_.size()));
   graph_.add_place();
+  tolerances_.push_back({kGreatestStep, kGreatestStep});
   append(travel);
   const bool is_arrival = travel.to == place;
   const Pose2& T_from_to = travel.T_from_to.mean;
@@ -135,19 +139,25 @@ Status IncrementalLayout::add_travel(const TravelConstraint& travel) {
   if (travel.from == travel.to) {
     return {};
   }
-  const PlaceVector before = global_places_;
+  State before{tree_, global_places_, linearised_, steps_, is_active_};
   std::vector<int> touched;
   activate_way_to(travel.from, &touched);
   activate_way_to(travel.to, &touched);
-  if (relax(touched)) {
+  const Rest rest = relax(touched);
+  if (rest == Rest::kNearBy ||
+      (rest == Rest::kFarOff &&
+       chi2() - chi2_of(before.global_places, graph_.travel_count() - 1) <= kPlausibleChi2)) {
     return {};
   }
-  const Status solved = start_anew();
+  const Status solved = start_anew(rest == Rest::kFarOff);
   if (!solved) {
     travels_.pop_back();
     graph_.remove_last_travel();
-    global_places_ = before;
-    CAIRN_CHECK(linearise_all());  // It was positive definite before.
+    tree_ = std::move(before.tree);
+    global_places_ = std::move(before.global_places);
+    linearised_ = std::move(before.linearised);
+    steps_ = std::move(before.steps);
+    is_active_ = std::move(before.is_active);
   }
   return solved;
 }
@@ -166,71 +176,47 @@ void IncrementalLayout::activate_way_to(int place, std::vector<int>* touched) {
   }
 }
 
-/// Solves from where the places are.
-/// @return whether it has come to rest near by
-bool IncrementalLayout::relax(const std::vector<int>& touched) {
+/// Solves from where the places are, until nothing is stale.
+IncrementalLayout::Rest IncrementalLayout::relax(const std::vector<int>& touched) {
   if (!tree_.take_up(touched, equations(), &maker_)) {
-    return false;
+    return Rest::kNone;
   }
+  Rest rest = Rest::kNearBy;
   for (int pass = 0; pass < kMaxPasses; ++pass) {
-    const std::vector<int> changed = tree_.solve(kStepTolerance, &steps_);
-    if (has_moved_too_far(changed)) {
-      return false;
+    const std::vector<int> changed = tree_.solve(tolerances_, &steps_);
+    const double turn_rad = greatest_turn_rad(changed);
+    if (!(turn_rad < kPi)) {
+      return Rest::kNone;
     }
+    rest = turn_rad < kFarTurn_rad ? rest : Rest::kFarOff;
     take_steps(changed);
-    const std::vector<int> stale = stale_places(changed);
+    const std::vector<int> stale = stale_places(equations(), steps_, changed);
     if (stale.empty()) {
-      return true;
+      return rest;
     }
     for (const int place : stale) {
       linearised_[at(place)] = global_places_[at(place)];
       steps_[at(place)].setZero();
     }
     if (!tree_.relinearise(stale, equations(), &maker_)) {
-      return false;
+      return Rest::kNone;
     }
   }
-  return false;
+  return Rest::kNone;
 }
 
-bool IncrementalLayout::has_moved_too_far(const std::vector<int>& changed) const {
-  return std::any_of(changed.begin(), changed.end(), [&](int place) {
-    const Eigen::Vector3d& from = linearised_[at(place)];
-    const double turn_rad = from.z() + steps_[at(place)].z() - global_places_[at(place)].z();
-    return !(std::abs(turn_rad) < kFarTurn_rad) || !steps_[at(place)].allFinite();
-  });
-}
-
-/// Places to be linearised anew: both ends of travels whose expansion is off, and what would be off
-/// beside them when they are.
-std::vector<int> IncrementalLayout::stale_places(const std::vector<int>& changed) const {
-  std::vector<int> stale;
-  std::vector<char> is_in(steps_.size(), 0);
-  const auto add = [&](int place) {
-    if (place != 0 && std::exchange(is_in[at(place)], 1) == 0) {
-      stale.push_back(place);
-    }
-  };
+/// Of what is about to change; infinite where a step is not finite.
+double IncrementalLayout::greatest_turn_rad(const std::vector<int>& changed) const {
+  double greatest_rad = 0.0;
   for (const int place : changed) {
-    graph_.for_each_travel_of(place, [&](int index) {
-      const TravelResidual& travel = graph_.travel(index);
-      if (is_active_[at(travel.from)] != 0 && is_active_[at(travel.to)] != 0 &&
-          is_stale(travel, steps_[at(travel.from)], steps_[at(travel.to)], 1.0)) {
-        add(travel.from);
-        add(travel.to);
-      }
-    });
+    const Eigen::Vector3d& step = steps_[at(place)];
+    if (!step.allFinite()) {
+      return std::numeric_limits<double>::infinity();
+    }
+    const double turn_rad = linearised_[at(place)].z() + step.z() - global_places_[at(place)].z();
+    greatest_rad = std::max(greatest_rad, std::abs(turn_rad));
   }
-  for (std::size_t i = 0; i < stale.size(); ++i) {
-    graph_.for_each_travel_of(stale[i], [&](int index) {
-      const TravelResidual& travel = graph_.travel(index);
-      if (travel.to == stale[i] && is_active_[at(travel.from)] != 0 &&
-          is_stale(travel, steps_[at(travel.from)], Eigen::Vector3d::Zero(), kBorderShare)) {
-        add(travel.from);
-      }
-    });
-  }
-  return stale;
+  return greatest_rad;
 }
 
 void IncrementalLayout::take_steps(const std::vector<int>& changed) {
@@ -259,10 +245,13 @@ void IncrementalLayout::carry_along(const std::vector<int>& changed) {
   }
 }
 
-/// Solves all travels from the linear start.
-Status IncrementalLayout::start_anew() {
+/// Solves all travels from the linear start; of two rests, the one of lower chi2 is kept.
+Status IncrementalLayout::start_anew(bool is_at_rest) {
   ++restart_count_;
   const Result<LayoutAttempt> attempt = attempt_layout(place_count(), travels_);
+  if (is_at_rest && (!attempt || !attempt->is_converged || attempt->layout.chi2 >= chi2())) {
+    return {};
+  }
   if (!attempt) {
     return attempt.error();
   }
@@ -275,7 +264,7 @@ Status IncrementalLayout::start_anew() {
   if (!linearise_all()) {
     return Error{ErrorCode::kNotConverged, "layout: the curvature is singular"};
   }
-  take_steps(tree_.solve(kStepTolerance, &steps_));
+  take_steps(tree_.solve(tolerances_, &steps_));
   return {};
 }
 

@@ -121,6 +121,9 @@ Descent descend(const std::vector<TravelResidual>& travels,
   if (places->size() == 1) {
     return {0, true, {}, std::vector<Matrix3d>(options.covariances ? 1 : 0, Matrix3d::Zero())};
   }
+  if (!std::isfinite(cost_of(*places, travels, options.outlier_sigmas))) {
+    return {0, false, "layout: the start is too far off: its sum of squares is not finite", {}};
+  }
   NormalEquations equations(static_cast<int>(places->size()), travels);
   Descent descent = descend_freely(&equations, travels, options, places);
   if (!descent.is_converged) {

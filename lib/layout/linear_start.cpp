@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <optional>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -10,7 +12,7 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
-#include "base/check.hpp"
+#include "layout/travel_tree.hpp"
 
 namespace cairn {
 namespace {
@@ -22,19 +24,23 @@ template <typename T>
 using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
 
 /// Lower triangle of the normal equations of a sum of squares |to - from * step|^2 / variance and
-/// the like: place 0 is known and goes to the right side.
+/// the like: place 0 is known and goes to the right side. None where it is singular to rounding.
 template <typename T>
-Vector<T> solved(const std::vector<Eigen::Triplet<T>>& lower, const Vector<T>& right) {
+std::optional<Vector<T>> solved(const std::vector<Eigen::Triplet<T>>& lower,
+                                const Vector<T>& right) {
   Sparse<T> matrix(right.size(), right.size());
   matrix.setFromTriplets(lower.begin(), lower.end());
   Eigen::SimplicialLDLT<Sparse<T>, Eigen::Lower, Eigen::NaturalOrdering<int>> solver(matrix);
-  CAIRN_CHECK(solver.info() == Eigen::Success);
-  return solver.solve(right);
+  if (solver.info() != Eigen::Success) {
+    return std::nullopt;
+  }
+  Vector<T> solution = solver.solve(right);
+  return solution.allFinite() ? std::optional(std::move(solution)) : std::nullopt;
 }
 
 /// Headings as complex numbers: minimises the sum of |h_to - h_from z|^2 / variance, h_0 = 1.
-std::vector<double> chordal_headings(int place_count,
-                                     const std::vector<TravelConstraint>& travels) {
+std::optional<std::vector<double>> chordal_headings(int place_count,
+                                                    const std::vector<TravelConstraint>& travels) {
   std::vector<Eigen::Triplet<Complex>> lower;
   lower.reserve(3 * travels.size());
   Vector<Complex> right = Vector<Complex>::Zero(place_count - 1);
@@ -62,10 +68,13 @@ std::vector<double> chordal_headings(int place_count,
       lower.emplace_back(i, j, -std::conj(turn));
     }
   }
-  const Vector<Complex> headings = solved<Complex>(lower, right);
+  const std::optional<Vector<Complex>> headings = solved<Complex>(lower, right);
+  if (!headings) {
+    return std::nullopt;
+  }
   std::vector<double> headings_rad(static_cast<std::size_t>(place_count), 0.0);
   for (int place = 1; place < place_count; ++place) {
-    headings_rad[static_cast<std::size_t>(place)] = std::arg(headings[place - 1]);
+    headings_rad[static_cast<std::size_t>(place)] = std::arg((*headings)[place - 1]);
   }
   return headings_rad;
 }
@@ -84,14 +93,30 @@ void add_block(int row,
   }
 }
 
-}  // namespace
-
-PlaceVector linear_start(int place_count, const std::vector<TravelConstraint>& travels) {
-  PlaceVector places(static_cast<std::size_t>(place_count), Eigen::Vector3d::Zero());
-  if (place_count < 2) {
-    return places;
+/// All places by the least uncertain ways from place 0.
+PlaceVector chained(int place_count, const std::vector<TravelConstraint>& travels) {
+  const TravelTree tree = least_uncertain_ways(place_count, travels, {0});
+  std::vector<Pose2> T_first_place(static_cast<std::size_t>(place_count));
+  for (const int place : tree.order) {
+    const int parent = tree.parent[static_cast<std::size_t>(place)];
+    if (parent >= 0) {
+      T_first_place[static_cast<std::size_t>(place)] =
+          T_first_place[static_cast<std::size_t>(parent)] *
+          displacement_from_parent(tree, travels, place).mean;
+    }
   }
-  const std::vector<double> headings_rad = chordal_headings(place_count, travels);
+  PlaceVector places;
+  for (const Pose2& pose : T_first_place) {
+    places.emplace_back(pose.x(), pose.y(), pose.theta());
+  }
+  return places;
+}
+
+/// All positions, with the headings as they are.
+PlaceVector positions_for(const std::vector<double>& headings_rad,
+                          const std::vector<TravelConstraint>& travels) {
+  const int place_count = static_cast<int>(headings_rad.size());
+  PlaceVector places(headings_rad.size(), Eigen::Vector3d::Zero());
   std::vector<Eigen::Triplet<double>> lower;
   lower.reserve(10 * travels.size());
   Vector<double> right = Vector<double>::Zero(2 * (place_count - 1));
@@ -119,12 +144,26 @@ PlaceVector linear_start(int place_count, const std::vector<TravelConstraint>& t
       add_block(std::max(i, j), std::min(i, j), -information, &lower);
     }
   }
-  const Vector<double> positions = solved<double>(lower, right);
+  const std::optional<Vector<double>> positions = solved<double>(lower, right);
+  if (!positions) {
+    return chained(place_count, travels);
+  }
   for (int place = 1; place < place_count; ++place) {
-    places[static_cast<std::size_t>(place)] << positions.segment<2>(2 * (place - 1)),
+    places[static_cast<std::size_t>(place)] << positions->segment<2>(2 * (place - 1)),
         headings_rad[static_cast<std::size_t>(place)];
   }
   return places;
+}
+
+}  // namespace
+
+PlaceVector linear_start(int place_count, const std::vector<TravelConstraint>& travels) {
+  PlaceVector places(static_cast<std::size_t>(place_count), Eigen::Vector3d::Zero());
+  if (place_count < 2) {
+    return places;
+  }
+  const std::optional<std::vector<double>> headings_rad = chordal_headings(place_count, travels);
+  return headings_rad ? positions_for(*headings_rad, travels) : chained(place_count, travels);
 }
 
 }  // namespace cairn

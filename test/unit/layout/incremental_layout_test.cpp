@@ -133,6 +133,26 @@ TEST(IncrementalLayout, ALargeLoopThatClosesBadlyIsAsGoodAsAllAtOnce) {
   }
 }
 
+// Hypotheses are laid out though they are wrong: a closure may contradict everything.
+TEST(IncrementalLayout, UnderFalseClosuresIsNeverWorseThanAllAtOnce) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const test::SimulatedTour tour = test::simulated_tour({40, seed, 3.0, 0.5, 0.1, 0.02});
+    IncrementalLayout layout = layout_of(tour.travels);
+    for (int i = 0; i < 3; ++i) {
+      const int from = static_cast<int>(random() % 40);
+      const int to = (from + 1 + static_cast<int>(random() % 39)) % 40;
+      ASSERT_TRUE(layout.add_travel(
+          travel(from, to, 1.0, 0.0, 0.001 * static_cast<double>(random() % 6000))));
+      const Result<PlaceLayout> batch = solve_layout(layout.place_count(), layout.travels());
+      if (batch) {
+        EXPECT_LE(layout.chi2(), (1.0 + 1e-6) * batch->chi2 + 1e-6);
+      }
+    }
+  }
+}
+
 TEST(IncrementalLayout, PlacesThatHangOnOthersGoWithThem) {
   IncrementalLayout layout = layout_of({travel(0, 1, 2.0, 0.0, 0.0), travel(1, 2, 0.0, 2.0, 0.0),
                                         travel(2, 3, 0.0, 1.0, 1.0), travel(4, 3, 1.0, 0.0, 0.3)});
@@ -206,6 +226,38 @@ TEST(IncrementalLayout, ALongChainCanBeClosed) {
   }
   ASSERT_TRUE(layout.add_travel(travel(kPlaces - 1, 0, 1.0, 0.0, 2.0 * kPi / kPlaces)));
   EXPECT_LT(layout.chi2(), 1e-3);
+}
+
+// Uncertainties and ways as far apart as they are let in: whatever cannot be laid out is not added.
+TEST(IncrementalLayout, WhatCannotBeLaidOutLeavesAllAsItWas) {
+  int refused = 0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const auto power = [&] { return std::pow(10.0, static_cast<double>(random() % 13) - 6.0); };
+    IncrementalLayout layout;
+    for (int i = 0; i < 30; ++i) {
+      const bool is_new = layout.place_count() < 3 || random() % 2 == 0;
+      const int to = is_new
+                         ? layout.place_count()
+                         : static_cast<int>(random() % static_cast<unsigned>(layout.place_count()));
+      const int from = static_cast<int>(random() % static_cast<unsigned>(layout.place_count()));
+      const std::vector<Pose2> before = layout.T_global_place();
+      const std::size_t travels_before = layout.travels().size();
+      const Status added =
+          add({from, to, {Pose2(power(), -power(), power()), diagonal(power(), power(), power())}},
+              &layout);
+      for (const Pose2& pose : layout.T_global_place()) {
+        ASSERT_TRUE(std::isfinite(pose.x() + pose.y() + pose.theta()));
+      }
+      if (!added) {
+        ++refused;
+        EXPECT_EQ(layout.T_global_place(), before);
+        EXPECT_EQ(layout.travels().size(), travels_before);
+      }
+    }
+  }
+  EXPECT_GT(refused, 0);
 }
 
 TEST(IncrementalLayout, RefusesWhatJoinsNoKnownPlaceAndAddsNothing) {

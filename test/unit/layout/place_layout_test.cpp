@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "layout/damped_descent.hpp"
+#include "layout/layout_attempt.hpp"
 #include "layout/linear_start.hpp"
 #include "layout/normal_equations.hpp"
 #include "layout/travel_residual.hpp"
@@ -308,6 +309,33 @@ TEST(PlaceLayout, NamesThePlaceThatNoTravelReaches) {
   ASSERT_FALSE(layout);
   EXPECT_EQ(layout.error().code, ErrorCode::kContradiction);
   EXPECT_THAT(layout.error().message, HasSubstr("to place 2"));
+}
+
+TEST(LayoutAttempt, EndsNearTheStartItIsGiven) {
+  const World world = random_world(4, 20, 12);
+  const Result<LayoutAttempt> linear = attempt_layout(20, world.travels);
+  ASSERT_TRUE(linear);
+  EXPECT_TRUE(linear->is_converged);
+  EXPECT_GE(linear->initial_chi2, linear->layout.chi2);
+  const Result<LayoutAttempt> from_truth =
+      attempt_layout(20, world.travels, {}, &world.T_global_place);
+  ASSERT_TRUE(from_truth);
+  EXPECT_TRUE(from_truth->is_converged);
+  EXPECT_NEAR(from_truth->layout.chi2, linear->layout.chi2, 1e-6 * linear->layout.chi2);
+}
+
+TEST(LayoutAttempt, SaysWhyThereIsNoLayout) {
+  const World world = random_world(4, 20, 12);
+  std::vector<Pose2> far = world.T_global_place;
+  far[3] = Pose2(1e300, 1e300, 0.0);
+  const Result<LayoutAttempt> attempt = attempt_layout(20, world.travels, {}, &far);
+  ASSERT_TRUE(attempt);
+  EXPECT_FALSE(attempt->is_converged);
+  EXPECT_THAT(attempt->reason, HasSubstr("not finite"));
+  far[3] = Pose2(NAN, 0.0, 0.0);
+  EXPECT_FALSE(attempt_layout(20, world.travels, {}, &far));
+  far.pop_back();
+  EXPECT_FALSE(attempt_layout(20, world.travels, {}, &far));
 }
 
 TEST(PlaceLayout, RefusesBadTravelsByNumber) {
