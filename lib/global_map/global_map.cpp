@@ -84,22 +84,22 @@ void GlobalMap::count(const PosedScan& scan, std::int32_t times) {
   const Pose2 T_global_laser = scan.T_global_robot * scan.scan->T_robot_laser;
   const int side = options_.tile_cells;
   Tile* tile = nullptr;
-  TileIndex tile_index;
-  bool is_first = true;
+  Cell low{0, 0};   // of the tile
+  Cell high{0, 0};  // beyond the tile
   for (const TouchedCell& touched : footprint_.of(*scan.scan, T_global_laser)) {
-    const TileIndex index{floored_quotient(touched.cell.x, side),
-                          floored_quotient(touched.cell.y, side)};
-    if (is_first || index != tile_index) {
+    const Cell& at = touched.cell;
+    if (at.x < low.x || at.x >= high.x || at.y < low.y || at.y >= high.y) {
+      const TileIndex index{floored_quotient(at.x, side), floored_quotient(at.y, side)};
       tile = tile_to_draw_on(index);
-      tile_index = index;
-      is_first = false;
+      low = {index.x * side, index.y * side};
+      high = {low.x + side, low.y + side};
     }
     if (tile == nullptr) {
       cells_beyond_budget_ += times > 0 ? 1 : 0;
       continue;
     }
-    const int cell = (touched.cell.y - index.y * side) * side + touched.cell.x - index.x * side;
-    Evidence& evidence = tile->cells[static_cast<std::size_t>(cell)];
+    Evidence& evidence =
+        tile->cells[static_cast<std::size_t>((at.y - low.y) * side + at.x - low.x)];
     (touched.is_hit ? evidence.hits : evidence.misses) += times;
   }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "grid/ray_trace.hpp"
@@ -38,6 +39,7 @@ ScanFootprint::ScanFootprint(double cell_m, double draw_range_m) : draw_range_m_
   window_.cell_m = cell_m;
   window_.width = window_.height = 2 * reach_cells + 1;
   marks_.resize(window_.cell_count(), Mark::kNone);
+  low_row_ = window_.height;
 }
 
 const std::vector<TouchedCell>& ScanFootprint::of(const LaserScan& scan,
@@ -58,28 +60,54 @@ const std::vector<TouchedCell>& ScanFootprint::of(const LaserScan& scan,
         std::isinf(range_m) ? free_range_m(scan.ranges_m, i, reach_m) : std::min(range_m, reach_m);
     trace(laser, laser + free_m * direction, range_m <= reach_m);
   }
-  touched_.clear();
-  for (const Cell& cell : marked_) {
-    Mark& mark = marks_[window_.index_of(cell)];
-    touched_.push_back({{corner.x + cell.x, corner.y + cell.y}, mark == Mark::kHit});
-    mark = Mark::kNone;
+  for (const std::size_t hit : hits_) {
+    marks_[hit] = Mark::kHit;  // Whatever passes there.
   }
-  marked_.clear();
+  hits_.clear();
+  collect(corner);
   return touched_;
+}
+
+/// Empties the window row by row, so that cells of one tile follow each other.
+void ScanFootprint::collect(Cell corner) {
+  constexpr std::size_t kWord = sizeof(std::uint64_t);
+  touched_.clear();
+  const auto width = static_cast<std::size_t>(window_.width);
+  for (int row = low_row_; row <= high_row_; ++row) {
+    Mark* const marks = marks_.data() + static_cast<std::size_t>(row) * width;
+    for (std::size_t column = 0; column < width; ++column) {
+      std::uint64_t word = 1;
+      if (column + kWord <= width) {
+        std::memcpy(&word, marks + column, kWord);
+      }
+      if (word == 0) {
+        column += kWord - 1;  // Most of the window is not touched.
+        continue;
+      }
+      if (marks[column] != Mark::kNone) {
+        touched_.push_back(
+            {{corner.x + static_cast<int>(column), corner.y + row}, marks[column] == Mark::kHit});
+        marks[column] = Mark::kNone;
+      }
+    }
+  }
+  low_row_ = window_.height;
+  high_row_ = -1;
 }
 
 void ScanFootprint::trace(const Vector2d& from, const Vector2d& to, bool is_hit) {
   ray_.clear();
   trace_ray(window_, from, to, &ray_);
-  for (const Cell& cell : ray_) {
-    Mark& mark = marks_[window_.index_of(cell)];
-    if (mark == Mark::kNone) {
-      mark = Mark::kPassed;
-      marked_.push_back(cell);
-    }
+  if (ray_.empty()) {
+    return;
   }
-  if (is_hit && !ray_.empty()) {
-    marks_[window_.index_of(ray_.back())] = Mark::kHit;
+  for (const Cell& cell : ray_) {
+    marks_[window_.index_of(cell)] = Mark::kPassed;
+  }
+  low_row_ = std::min({low_row_, ray_.front().y, ray_.back().y});
+  high_row_ = std::max({high_row_, ray_.front().y, ray_.back().y});
+  if (is_hit) {
+    hits_.push_back(window_.index_of(ray_.back()));
   }
 }
 

@@ -21,7 +21,7 @@ class ScanFootprint {
  public:
   ScanFootprint(double cell_m, double draw_range_m);
 
-  /// The cells in the order of the beams. Beams are drawn up to the draw range or the scan's max
+  /// The cells row by row. Beams are drawn up to the draw range or the scan's max
   /// range, whichever is less; +infinity passes up to there, but no farther than its neighbours
   /// where only a few beams lack a return; NaN says nothing.
   /// @return valid until the next call
@@ -32,12 +32,15 @@ class ScanFootprint {
   enum class Mark : std::uint8_t { kNone, kPassed, kHit };
 
   void trace(const Vector2d& from, const Vector2d& to, bool is_hit);
+  void collect(Cell corner);
 
   double draw_range_m_;
   GridGeometry window_;      ///< Around the laser.
   std::vector<Mark> marks_;  ///< Of the window's cells; all kNone between calls.
   std::vector<Cell> ray_;
-  std::vector<Cell> marked_;  ///< Cells of the window.
+  std::vector<std::size_t> hits_;  ///< Where beams end, in marks_.
+  int low_row_ = 0;                ///< Of the marks; above high_row_ where there are none.
+  int high_row_ = -1;
   std::vector<TouchedCell> touched_;
 };
 
