@@ -131,7 +131,7 @@ std::string_view advice_for(MotionFault fault) {
     case MotionFault::kCarried:
       return "the scans say more than the wheels: the robot was lifted, pushed, or slides";
     case MotionFault::kOdometryStalled:
-      return "odometry repeats itself while the scans go on: check its source";
+      return "odometry stands still while the scans move: check its source";
     case MotionFault::kScanStalled:
       return "the laser repeats one scan while the wheels drive: check its driver";
     case MotionFault::kBump:
