@@ -208,11 +208,11 @@ DaemonOptions options_from_file(const std::string& config_file) {
   std::ostringstream text;
   text << file.rdbuf();
   if (!file) {
-    throw Failure(ExitCode::kBadData, config_file + ": cannot be read");
+    throw Failure(ExitCode::kConfiguration, config_file + ": cannot be read");
   }
   const Result<DaemonOptions> options = read_options(text.str());
   if (!options) {
-    throw Failure(ExitCode::kBadData, config_file + ": " + options.error().message);
+    throw Failure(ExitCode::kConfiguration, config_file + ": " + options.error().message);
   }
   return *options;
 }

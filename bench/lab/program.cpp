@@ -27,7 +27,25 @@ using clients::Failure;
 
 constexpr char kExitStatus[] =
     "Exit status: 0 done; 1 done, but the counts are not those of the file, an agreement does "
-    "not hold, or a layout has not converged; 64 wrong command line; 65 bad data; 73 cannot write.";
+    "not hold, or a layout has not converged; 64 wrong command line; 65 bad data; 73 cannot write; "
+    "78 wrong configuration.";
+
+/// No option of any command has a meaning without a value: an empty name, as of a shell variable
+/// that is not set, would be taken for a file that is not wanted.
+void check_no_empty(const std::vector<std::string>& arguments) {
+  std::string before;
+  for (const std::string& argument : arguments) {
+    if (argument.empty()) {
+      throw Failure(ExitCode::kUsage,
+                    before + (before.empty() ? "" : ": ") + "an empty name or value");
+    }
+    if (argument.size() > 2 && argument.rfind("--", 0) == 0 && argument.back() == '=') {
+      throw Failure(ExitCode::kUsage,
+                    argument.substr(0, argument.size() - 1) + ": an empty name or value");
+    }
+    before = argument;
+  }
+}
 
 }  // namespace
 
@@ -48,6 +66,7 @@ int run_lab(const std::vector<std::string>& arguments, std::ostream& out, std::o
     add_rooms_command(app, {out, err}, &status);
     add_recognition_command(app, {out, err}, &status);
     add_layout_command(app, {out, err}, &status);
+    check_no_empty(arguments);
     std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
     app.parse(reversed);
     out.flush();

@@ -12,7 +12,7 @@ enum class ExitCode {
   kBadData = 65,    ///< A file or an answer is not what it should be, or names what is not there.
   kNoService = 69,  ///< No daemon answered, or it could not do it.
   kCannotCreate = 73,  ///< An output file cannot be written.
-  kConfiguration = 78  ///< The bus cannot be opened as configured.
+  kConfiguration = 78  ///< Wrong configuration, or the bus cannot be opened as configured.
 };
 
 /// Ends a command: one line for the person who typed it, and the exit status. Thrown by commands

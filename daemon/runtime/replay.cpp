@@ -166,6 +166,7 @@ Json summary_of(const Replay& replay, const Engine& engine, double spent_s) {
           {"fixes", tally.notes},
           {"localisation", localisation_of(tally, service)},
           {"duplicate_scans_dropped", joiner.duplicates},
+          {"repeated_stamps", joiner.repeated},
           {"out_of_order", joiner.out_of_order},
           {"stray_stamps_dropped", joiner.strays},
           {"clock_steps", joiner.clock_steps},
@@ -218,11 +219,12 @@ void print_text(const Json& summary) {
                            " scans not mapped; states: " + counts_text(localisation["states"]));
   line("faults", counts_text(localisation["faults"]));
   line("relocalised", counts_text(localisation["relocalised"]));
-  line("stamps", number("out_of_order") + " out of order (used), " +
-                     number("duplicate_scans_dropped") + " duplicates and " +
-                     number("stray_stamps_dropped") + " stray stamps (dropped), " +
-                     number("clock_steps") + " clock steps, " + number("gaps") + " gaps, " +
-                     number("scans_without_odometry") + " scans without odometry");
+  line("stamps", number("repeated_stamps") + " repeated and " + number("out_of_order") +
+                     " out of order (used), " + number("duplicate_scans_dropped") +
+                     " duplicates and " + number("stray_stamps_dropped") +
+                     " stray stamps (dropped), " + number("clock_steps") + " clock steps, " +
+                     number("gaps") + " gaps, " + number("scans_without_odometry") +
+                     " scans without odometry");
   line("refused", counts_text(summary["refused"]));
   line("skipped", counts_text(summary["skipped"]));
   line("visits", number("visits") + " (dropped: " + counts_text(summary["visits_dropped"]) +

@@ -105,7 +105,7 @@ cairn_lcm::status_t StatusBoard::status(bool hears_another_daemon,
   status.scans_received = scans_received_;
   status.scans_mapped = scans_mapped_;
   status.scans_dropped = dropped;
-  status.scans_out_of_order = static_cast<std::int64_t>(joiner_.out_of_order);
+  status.scans_out_of_order = static_cast<std::int64_t>(joiner_.out_of_order + joiner_.repeated);
   status.clock_steps = static_cast<std::int64_t>(joiner_.clock_steps);
   status.scans_refused = static_cast<std::int64_t>(joiner_.duplicates + joiner_.strays);
   status.odometry_received = odometry_received_;

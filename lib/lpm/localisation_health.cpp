@@ -45,8 +45,9 @@ std::string cause_text(const LocalisationHealth& health, const LocalisationOptio
              "it? " +
              (is_lost ? error : "odometry alone meanwhile");
     case LocalisationCause::kDoubt:
-      return "the scans fit the local map less well than before something moved the robot: nothing "
-             "is mapped until it is clear where it is";
+      return "something moved the robot, and the scans have not shown yet where it is now: nothing "
+             "is "
+             "mapped until it is clear";
     case LocalisationCause::kFault:
       return fault_text(health.fault);
     case LocalisationCause::kNoOdometry:
@@ -130,7 +131,7 @@ std::string_view advice_for(MotionFault fault) {
     case MotionFault::kCarried:
       return "the scans say more than the wheels: the robot was lifted, pushed, or slides";
     case MotionFault::kOdometryStalled:
-      return "odometry repeats itself while the scans go on: check its source";
+      return "odometry stands still while the scans move: check its source";
     case MotionFault::kScanStalled:
       return "the laser repeats one scan while the wheels drive: check its driver";
     case MotionFault::kBump:

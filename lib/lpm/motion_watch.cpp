@@ -16,6 +16,8 @@ constexpr double kStill = 1e-9;           // odometry that repeats itself, but f
 constexpr double kDriving_m = 0.01;       // per step
 constexpr double kDriving_rad = 0.01;     // per step
 constexpr int kRepeats = 2;               // so many in a row are no chance
+constexpr double kAlong = 4.0;            // times as far ahead as sideways: driven, not carried
+constexpr double kDroveOn_m = 0.5;        // by the scans, while odometry stood
 constexpr double kGoesOn = 0.25;    // share of the mean disagreement that the newest step must have
 constexpr double kOpposite = -0.6;  // correlation
 constexpr double kMemory = 2.0;     // of agreement, in travels that convict
@@ -104,6 +106,7 @@ bool MotionWatch::is_impossible(const MotionEvidence& evidence) const {
 void MotionWatch::interrupt() {
   window_.clear();
   frozen_steps_ = 0;
+  frozen_travel_m_ = 0.0;
   was_driving_ = false;
   repeated_scans_ = 0;
   repeated_odometry_.setZero();
@@ -142,8 +145,10 @@ MotionFault MotionWatch::judge(const MotionEvidence& evidence) {
 void MotionWatch::note_repeats(const Step& step, bool is_scan_repeated) {
   if (step.odometry.cwiseAbs().maxCoeff() < kStill) {
     ++frozen_steps_;
+    frozen_travel_m_ += step.matched[kDrive];
   } else {
     frozen_steps_ = 0;
+    frozen_travel_m_ = 0.0;
     was_driving_ = std::abs(step.odometry[kDrive]) > kDriving_m ||
                    std::abs(step.odometry[kTurn]) > kDriving_rad;
   }
@@ -228,6 +233,11 @@ MotionFault MotionWatch::lasting_fault() const {
     return MotionFault::kNone;
   }
   if (frozen_steps_ >= kRepeats && was_driving_ && worst != kSlide) {
+    return MotionFault::kOdometryStalled;
+  }
+  // Nobody carries a robot for long as if it drove.
+  if (frozen_steps_ >= options_.window_steps && std::abs(frozen_travel_m_) >= kDroveOn_m &&
+      std::abs(sum.matched[kDrive]) > kAlong * std::abs(sum.matched[kSlide])) {
     return MotionFault::kOdometryStalled;
   }
   return std::abs(sum.matched[worst]) < std::abs(sum.odometry[worst]) ? MotionFault::kSlip

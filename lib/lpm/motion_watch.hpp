@@ -15,7 +15,8 @@ enum class MotionFault : std::uint8_t {
   kNone,             ///< They agree.
   kSlip,             ///< Wheels say more than the scan: they spin, or the robot pushes a wall.
   kCarried,          ///< The scan says more than the wheels: lifted, pushed, sliding.
-  kOdometryStalled,  ///< Odometry repeats itself while the scan goes on as before.
+  kOdometryStalled,  ///< Odometry repeats itself while the scan goes on as before, or as a robot
+                     ///< drives.
   kScanStalled,      ///< The scan repeats itself, reading by reading, while the wheels drive.
   kBump,             ///< All at once sideways or around, in one step. If it goes on: carried.
   kTeleport,         ///< Odometry jumped farther than the robot can drive.
@@ -101,9 +102,10 @@ class MotionWatch {
   [[nodiscard]] Step windowed() const;
 
   MotionWatchOptions options_;
-  std::vector<Step> window_;  // oldest first
-  int frozen_steps_ = 0;      // odometry has repeated itself so often
-  bool was_driving_ = false;  // by odometry, when it froze
+  std::vector<Step> window_;      // oldest first
+  int frozen_steps_ = 0;          // odometry has repeated itself so often
+  double frozen_travel_m_ = 0.0;  // ahead, by the scans, during them
+  bool was_driving_ = false;      // by odometry, when it froze
   int repeated_scans_ = 0;
   Eigen::Vector3d repeated_odometry_ = Eigen::Vector3d::Zero();  // during them
   Agreement drive_;

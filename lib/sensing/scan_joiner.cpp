@@ -87,7 +87,9 @@ void ScanJoiner::add(LaserScan scan) {
     stream.newest.reset();
   }
   const bool steps_back = stream.newest && scan.time <= *stream.newest;
-  counters_.out_of_order += steps_back ? 1 : 0;
+  const bool repeats = steps_back && stream.last && scan.time == stream.last->time;
+  counters_.repeated += repeats ? 1 : 0;
+  counters_.out_of_order += steps_back && !repeats ? 1 : 0;
   stream.newest = std::max(stream.newest.value_or(scan.time), scan.time);
   stream.last = scan;
   queue({std::move(scan), steps_back, end_arrival()});

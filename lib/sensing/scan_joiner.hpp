@@ -32,7 +32,8 @@ struct JoinerOptions {
 /// What was unusual in the streams. Nothing but exact duplicates and strays is ever dropped.
 struct JoinerCounters {
   std::uint64_t duplicates = 0;    ///< Scans dropped: same stamp and ranges as the one before.
-  std::uint64_t out_of_order = 0;  ///< Scans stamped at or before an earlier one, yet passed on.
+  std::uint64_t repeated = 0;      ///< Other scans stamped as the one before, yet passed on.
+  std::uint64_t out_of_order = 0;  ///< Others stamped at or before an earlier one, yet passed on.
   std::uint64_t strays = 0;        ///< Scans and odometry dropped: stamped as if by another clock.
   std::uint64_t clock_steps = 0;   ///< New clocks; odometry of the old clock is forgotten.
   std::uint64_t gaps = 0;          ///< Scans whose neighbours in odometry are > patience_s apart.

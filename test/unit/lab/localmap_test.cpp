@@ -188,7 +188,7 @@ TEST(LabLocalmap, RefusesWhatIsNotThere) {
   EXPECT_THAT(ran.errors, HasSubstr("line 1"));
   const std::string config = (folder / "a.json").string();
   write_file(config, R"({"lpm": {"insert_every": 1}})");
-  EXPECT_EQ(run({"localmap", log, "--config", config}).status, 65);
+  EXPECT_EQ(run({"localmap", log, "--config", config}).status, 78);
 }
 
 }  // namespace

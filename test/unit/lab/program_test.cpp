@@ -226,5 +226,20 @@ TEST(LabTopology, CannotWriteWhereNobodyCan) {
   EXPECT_EQ(ran.status, 73);
 }
 
+TEST(LabProgram, RefusesEmptyNamesOfWhateverItWrites) {
+  const std::vector<std::vector<std::string>> lines = {{"localmap", "any.clf", "--png", ""},
+                                                       {"localmap", "any.clf", "--png="},
+                                                       {"localmap", "any.clf", "--trajectory", ""},
+                                                       {"places", "any.clf", "--png", ""},
+                                                       {"islands", "any.png", "--png", ""},
+                                                       {"layout", "any.g2o", "--out", ""},
+                                                       {"rooms", "", "--png", "a.png"}};
+  for (const std::vector<std::string>& line : lines) {
+    const Ran ran = run(line);
+    EXPECT_EQ(ran.status, 64) << line[0];
+    EXPECT_THAT(ran.err, HasSubstr("an empty name or value")) << line[0];
+  }
+}
+
 }  // namespace
 }  // namespace cairn::lab

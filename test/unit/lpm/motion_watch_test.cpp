@@ -137,6 +137,32 @@ TEST(MotionWatch, NamesOdometryThatStalls) {
             kSeeds - 2);
 }
 
+TEST(MotionWatch, TellsOdometryThatStandsStillForLongFromARobotThatIsCarried) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    // It stood when odometry froze, and set off later.
+    const Spoil drives_off = [](int since, World* world) {
+      world->odometry = since == 0 ? arc(0.002, 0.0) : Pose2();
+      world->truth = world->matched = since < 20 ? world->odometry : arc(0.1, 0.02);
+    };
+    const Named stalled = drive(seed, drives_off, 60, 260);
+    EXPECT_GE(stalled.during.count(MotionFault::kOdometryStalled) > 0
+                  ? stalled.during.at(MotionFault::kOdometryStalled)
+                  : 0,
+              30)
+        << seed;
+    const Spoil is_carried = [](int since, World* world) {
+      world->odometry = Pose2();
+      world->truth = world->matched = since < 20 ? Pose2() : Pose2(0.05, 0.06, 0.02);
+    };
+    const Named carried = drive(seed, is_carried, 60, 260);
+    EXPECT_GE(carried.during.count(MotionFault::kCarried) > 0
+                  ? carried.during.at(MotionFault::kCarried)
+                  : 0,
+              30)
+        << seed;
+  }
+}
+
 TEST(MotionWatch, NamesScansThatRepeatThemselves) {
   EXPECT_GE(detections(MotionFault::kScanStalled,
                        [](int, World* world) {

@@ -152,6 +152,18 @@ TEST(ScanJoiner, DropsExactDuplicatesOnly) {
   joiner.flush();
   EXPECT_THAT(joined_x(&joiner), ElementsAre(1.0, 2.0));
   EXPECT_EQ(joiner.counters().duplicates, 1U);
+  EXPECT_EQ(joiner.counters().repeated, 1U);
+  EXPECT_EQ(joiner.counters().out_of_order, 0U);
+}
+
+TEST(ScanJoiner, CountsStampsThatRepeatApartFromThoseThatStepBack) {
+  ScanJoiner joiner;
+  joiner.add(scan(10.0, 1.0F));
+  joiner.add(scan(10.0, 2.0F));
+  joiner.add(scan(10.0, 3.0F));
+  joiner.add(scan(9.0, 4.0F));
+  joiner.add(scan(9.0, 5.0F));
+  EXPECT_EQ(joiner.counters().repeated, 3U);
   EXPECT_EQ(joiner.counters().out_of_order, 1U);
 }
 

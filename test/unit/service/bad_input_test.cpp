@@ -159,7 +159,7 @@ TEST_F(BadInput, StampsThatRepeat) {
     readings->odometry->time = time;
     readings->scans.front().time = time;
   });
-  EXPECT_GT(drive_.service().joiner_counters().out_of_order, 0U);
+  EXPECT_GT(drive_.service().joiner_counters().repeated, 0U);
   expect_recovered();
 }
 
