@@ -36,12 +36,12 @@ void check_no_empty(const std::vector<std::string>& arguments) {
   std::string before;
   for (const std::string& argument : arguments) {
     if (argument.empty()) {
-      throw Failure(ExitCode::kUsage,
-                    before + (before.empty() ? "" : ": ") + "an empty name or value");
+      throw Failure(ExitCode::kUsage, before + (before.empty() ? "" : ": ") +
+                                          "expected the name of a file, or a value: it is empty");
     }
     if (argument.size() > 2 && argument.rfind("--", 0) == 0 && argument.back() == '=') {
-      throw Failure(ExitCode::kUsage,
-                    argument.substr(0, argument.size() - 1) + ": an empty name or value");
+      throw Failure(ExitCode::kUsage, argument.substr(0, argument.size() - 1) +
+                                          ": expected the name of a file, or a value: it is empty");
     }
     before = argument;
   }

@@ -237,7 +237,7 @@ TEST(LabProgram, RefusesEmptyNamesOfWhateverItWrites) {
   for (const std::vector<std::string>& line : lines) {
     const Ran ran = run(line);
     EXPECT_EQ(ran.status, 64) << line[0];
-    EXPECT_THAT(ran.err, HasSubstr("an empty name or value")) << line[0];
+    EXPECT_THAT(ran.err, HasSubstr("expected the name of a file")) << line[0];
   }
 }
 
