@@ -7,7 +7,7 @@
 #include <Eigen/LU>
 
 #include "base/check.hpp"
-#include "lpm/match_score.hpp"
+#include "lpm/scan_continuity.hpp"
 
 namespace cairn {
 namespace {
@@ -27,6 +27,7 @@ constexpr double kSlip = 9.0;               // squared Mahalanobis of fix and wi
 constexpr double kGoodScore = 0.85;         // a match that leaves no wish for another
 constexpr double kLeastOfUsualScore = 0.6;  // a sudden fall below it is a wrong match
 constexpr double kClearlyBetter = 0.05;     // in score
+constexpr double kGoesOn = 0.65;            // of returns: the surroundings are those of before
 constexpr double kRadPerTravel_m = 3.0;     // a turn of 1 rad renews the map as so much travel
 
 Matrix3d diagonal(double sigma_x_m, double sigma_y_m, double sigma_rad) {
@@ -60,7 +61,32 @@ bool is_degenerate(const Matrix3d& covariance) {
          covariance(2, 2) > kDegenerateSigma_rad * kDegenerateSigma_rad;
 }
 
+bool is_refused(FixNote note) {
+  return note == FixNote::kBlockedSensor || note == FixNote::kNoOverlap ||
+         note == FixNote::kContradiction;
+}
+
 }  // namespace
+
+const char* to_string(FixNote note) {
+  switch (note) {
+    case FixNote::kMatched:
+      return "matched";
+    case FixNote::kFirst:
+      return "first";
+    case FixNote::kSlip:
+      return "slip";
+    case FixNote::kTeleport:
+      return "teleport";
+    case FixNote::kBlockedSensor:
+      return "blocked sensor";
+    case FixNote::kNoOverlap:
+      return "no overlap";
+    case FixNote::kContradiction:
+      return "contradiction";
+  }
+  return "unknown";
+}
 
 LocalMapper::LocalMapper(const LpmOptions& options)
     : options_(options),
@@ -93,7 +119,6 @@ LocalFix LocalMapper::locate(const JoinedScan& joined) {
     const GaussianPose predicted = compounded({T_lpm_robot_, uncertainty_}, fix.motion);
     fix.T_lpm_robot = predicted.mean;
     fix.covariance = predicted.covariance;
-    way_.foretell(fix.motion.mean);
     if (matcher_.is_blocked()) {
       fix.note = FixNote::kBlockedSensor;
     } else {
@@ -104,7 +129,7 @@ LocalFix LocalMapper::locate(const JoinedScan& joined) {
     }
   }
   advance(joined, &fix);
-  note_way(&fix);
+  note_way(fix);
   correct_heading(&fix);
   return fix;
 }
@@ -122,7 +147,6 @@ ScanMatch LocalMapper::best_match(const GaussianPose& predicted) {
 
 void LocalMapper::settle(const ScanMatch& match, const GaussianPose& predicted, LocalFix* fix) {
   fix->score = match.score;
-  usual_score_ = match.usual_score;
   if (match.known_share < kMinKnownShare) {
     fix->note = FixNote::kNoOverlap;
     return;
@@ -168,16 +192,20 @@ void LocalMapper::advance(const JoinedScan& joined, LocalFix* fix) {
   refusals_ = is_refused(fix->note) ? refusals_ + 1 : 0;
 }
 
-void LocalMapper::note_way(LocalFix* fix) {
-  if (fix->note == FixNote::kBlockedSensor) {
-    fix->has_broken_off = way_.has_broken_off();
+/// Whether it is known how the robot came from where it was matched last, though no map says so.
+void LocalMapper::note_way(const LocalFix& fix) {
+  if (fix.note == FixNote::kBlockedSensor) {
     return;
   }
-  if (fix->is_matched && way_.is_in_doubt(*fix, usual_score_)) {
-    fix->score = sober_score(map_, beams_, fix->T_lpm_robot);
-  }
-  way_.note({laser_, motion_.has_odometry(), usual_score_}, beams_, *fix);
-  fix->has_broken_off = way_.has_broken_off();
+  Seen& seen = seen_[laser_];
+  is_way_known_ =
+      !is_refused(fix.note) ||
+      (is_way_known_ && motion_.has_odometry() &&
+       continuity(beams_, seen.returns, seen.T_lpm_robot.inverse() * T_lpm_robot_) >= kGoesOn);
+  seen.T_lpm_robot = T_lpm_robot_;
+  seen.returns.resize(beams_.returns().size());
+  std::transform(beams_.returns().begin(), beams_.returns().end(), seen.returns.begin(),
+                 [](const SurfacePoint& point) { return point.p; });
 }
 
 void LocalMapper::correct_heading(LocalFix* fix) {
@@ -211,7 +239,7 @@ bool LocalMapper::take_up(const LocalFix& fix) {
     if (refusals_ < options_.refusals_before_restart) {
       return false;
     }
-    if (!way_.is_known()) {
+    if (!is_way_known_) {
       start_anew();
       return true;
     }
@@ -228,7 +256,6 @@ bool LocalMapper::take_up(const LocalFix& fix) {
 void LocalMapper::start_anew() {
   clear_map();
   ++restarts_;
-  way_.start_anew();
   draw();
 }
 

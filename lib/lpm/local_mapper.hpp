@@ -9,16 +9,50 @@
 #include "grid/occupancy_grid.hpp"
 #include "lpm/dead_reckoning.hpp"
 #include "lpm/heading_drift.hpp"
-#include "lpm/local_fix.hpp"
 #include "lpm/lpm_options.hpp"
 #include "lpm/matcher.hpp"
 #include "lpm/scan_beams.hpp"
 #include "lpm/scrolling_map.hpp"
 #include "lpm/wall_orientation.hpp"
-#include "lpm/way_watch.hpp"
 #include "sensing/scan_joiner.hpp"
 
 namespace cairn {
+
+/// What the local layer has to say about how it came to a fix.
+enum class FixNote : std::uint8_t {
+  kMatched,        ///< The scan agrees with the map and with odometry.
+  kFirst,          ///< Nothing to match with: the first scan, or the first after a restart.
+  kSlip,           ///< Matched, but odometry says otherwise: slip, push, or a stalled wheel.
+  kTeleport,       ///< Matched; odometry jumped farther than the robot can drive.
+  kBlockedSensor,  ///< Refused: hardly any returns.
+  kNoOverlap,      ///< Refused: hardly any return falls where the map knows anything.
+  kContradiction,  ///< Refused: the returns do not fall on the walls of the map.
+};
+
+/// The name of a note, as in "no overlap".
+[[nodiscard]] const char* to_string(FixNote note);
+
+/// Where the robot is in the local metrical map, after one scan.
+struct LocalFix {
+  TimePoint time;
+  /// In the "lpm" frame: one continuous frame of corrected odometry for the whole life of the
+  /// mapper.
+  Pose2 T_lpm_robot;
+  /// Of the match alone, of (x, y, theta) in the lpm frame, in m^2, m rad and rad^2: positive
+  /// definite, long along a corridor. Where the match was refused, that of dead reckoning.
+  Matrix3d covariance = Matrix3d::Identity();
+  /// T_previous_robot: the robot in the frame of the robot at the fix before. Motions of successive
+  /// fixes are to be compounded as independent ones: their covariance is the rate at which dead
+  /// reckoning by scan matching drifts. Where walls show that the heading of the lpm frame drifts,
+  /// it is corrected here, and here alone: the map stays as it was drawn.
+  GaussianPose motion;
+  bool is_matched = false;
+  bool is_degenerate = false;  ///< The scan does not fix every direction (a corridor, few returns).
+  double score = 0.0;  ///< Share of the returns over known cells that fall on walls, [0, 1].
+  FixNote note = FixNote::kFirst;
+  /// Why odometry and scans disagree, over this step and those before it.
+  MotionFault fault = MotionFault::kNone;
+};
 
 /// The local metrical layer: tracks the robot within a map of its surroundings that is made on the
 /// way, scrolls with it, and forgets what was left behind, so that no large loop can close by
@@ -74,7 +108,7 @@ class LocalMapper {
   void advance(const JoinedScan& joined, LocalFix* fix);
   void correct_heading(LocalFix* fix);
   void ask_walls();
-  void note_way(LocalFix* fix);
+  void note_way(const LocalFix& fix);
   void clear_map();
   void draw();
 
@@ -90,9 +124,14 @@ class LocalMapper {
   Pose2 T_lpm_robot_;
   Matrix3d uncertainty_ = Matrix3d::Zero();  // of dead reckoning since the last match, lpm frame
   std::map<int, Pose2> T_lpm_drawn_;         // by laser: where the map took its last scan
-  WayWatch way_;
-  double usual_score_ = 0.0;  // of matches of late
-  int laser_ = 0;             // of the scan taken last
+  /// What a laser saw last, if it was not blocked.
+  struct Seen {
+    Pose2 T_lpm_robot;
+    std::vector<Vector2d> returns;
+  };
+  std::map<int, Seen> seen_;   // by laser
+  bool is_way_known_ = false;  // since the last match
+  int laser_ = 0;              // of the scan taken last
   double travel_m_ = 0.0;
   int refusals_ = 0;
   std::int64_t restarts_ = 0;

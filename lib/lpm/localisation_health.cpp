@@ -45,9 +45,8 @@ std::string cause_text(const LocalisationHealth& health, const LocalisationOptio
              "it? " +
              (is_lost ? error : "odometry alone meanwhile");
     case LocalisationCause::kDoubt:
-      return "something moved the robot, and the scans have not shown yet where it is now: nothing "
-             "is "
-             "mapped until it is clear";
+      return "the scans fit the local map less well than before something moved the robot: nothing "
+             "is mapped until it is clear where it is";
     case LocalisationCause::kFault:
       return fault_text(health.fault);
     case LocalisationCause::kNoOdometry:

@@ -53,7 +53,7 @@ enum class LocalisationCause : std::uint8_t {
   kNoScans,        ///< Odometry comes, scans do not.
   kBlockedSensor,  ///< Scans come, with hardly a return in them.
   kNotMatched,     ///< Scans do not fit the local map.
-  kDoubt,          ///< They fit it, but the robot was bumped or carried, and it is not clear where.
+  kDoubt,          ///< They fit it less well than before, since the robot was bumped or carried.
   kFault,          ///< Odometry and scans disagree; see LocalisationHealth::fault.
   kNoOdometry,     ///< Scans come, odometry does not: the robot is taken to go on as it went.
 };

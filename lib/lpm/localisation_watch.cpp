@@ -15,6 +15,11 @@ constexpr double kMostPerMessage_s = 1.0;  // of silence: a longer step is the c
 constexpr double kUsualGain = 0.1;  // of the usual silence, per message
 constexpr double kUnusual = 4.0;    // times as long as usual is not usual
 
+bool is_refused(FixNote note) {
+  return note == FixNote::kBlockedSensor || note == FixNote::kNoOverlap ||
+         note == FixNote::kContradiction;
+}
+
 /// Of a point one metre from the robot's centre, where it is the largest.
 double variance_m2(const Matrix3d& covariance) {
   const Eigen::Matrix2d translation = covariance.topLeftCorner<2, 2>();
@@ -81,7 +86,7 @@ void LocalisationWatch::doubt(const LocalFix& fix) {
     is_doubted_ = true;
   }
   trusted_scans_ = is_doubted_ && fix.is_matched && !is_worse ? trusted_scans_ + 1 : 0;
-  is_doubted_ = fix.has_broken_off || (is_doubted_ && trusted_scans_ < options_.patience_scans);
+  is_doubted_ = is_doubted_ && trusted_scans_ < options_.patience_scans;
   is_doubtful_ = is_doubted_ && fix.is_matched;
   if (fix.is_matched && !is_doubted_) {
     usual_score_ += (usual_score_ > 0.0 ? kUsualGain : 1.0) * (fix.score - usual_score_);
@@ -102,8 +107,7 @@ void LocalisationWatch::accumulate(const LocalFix& fix) {
 void LocalisationWatch::count_runs(const LocalFix& fix) {
   refused_scans_ = is_refused(fix.note) ? refused_scans_ + 1 : 0;
   matched_scans_ = fix.is_matched && !is_doubtful_ ? matched_scans_ + 1 : 0;
-  const bool waits = fix.has_broken_off && trusted_scans_ > 0;  // for what further travel shows
-  if (fix.note != FixNote::kBlockedSensor && !waits) {
+  if (fix.note != FixNote::kBlockedSensor) {
     unfitting_scans_ = is_refused(fix.note) || is_doubtful_ ? unfitting_scans_ + 1 : 0;
   }
 }

@@ -35,9 +35,7 @@ class Silence {
 /// in a row it is found. While it is lost the local map must not change and no place be looked for,
 /// since both would be told of where the robot is not; `may_map` and `may_see_places` say so. The
 /// same holds while matches are doubted: a robot set down elsewhere in a room often finds a pose
-/// that fits so-so, and a map that took up its scans there would soon fit better, and be wrong.
-/// Where the surroundings broke off, the match is doubted however well it fits, until the mapper
-/// says that the break has passed; scans that fit less well than before it tell for a new map. A
+/// that fits so-so, and a map that took up its scans there would soon fit better, and be wrong. A
 /// map that nothing fits any more cannot be the way out: after a while `needs_new_map`.
 ///
 /// Source: Simhon and Dudek, IROS 1998, on when a robot is lost.

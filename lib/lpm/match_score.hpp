@@ -16,10 +16,4 @@ void judge(const ScrollingMap& map,
            double on_wall_m,
            ScanMatch* match);
 
-/// Share of the returns over known cells, or behind walls of the map, that fall on walls, [0, 1]:
-/// what no map knows does not tell against a match, but a beam cannot go through a wall.
-[[nodiscard]] double sober_score(const ScrollingMap& map,
-                                 const ScanBeams& beams,
-                                 const Pose2& T_lpm_robot);
-
 }  // namespace cairn

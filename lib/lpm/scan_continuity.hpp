@@ -17,10 +17,4 @@ namespace cairn {
                                 const std::vector<Vector2d>& before,
                                 const Pose2& T_before_now);
 
-/// The same asked of both scans, the lesser share of the two, and asked more closely: what is near
-/// by chance, in another room, is so in one way more than in the other.
-[[nodiscard]] double mutual_continuity(const ScanBeams& now,
-                                       const std::vector<Vector2d>& before,
-                                       const Pose2& T_before_now);
-
 }  // namespace cairn

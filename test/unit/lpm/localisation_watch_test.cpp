@@ -186,21 +186,6 @@ TEST_F(LocalisationWatchTest, AMatchThatIsAsGoodAsEverAfterABumpIsTrusted) {
   EXPECT_TRUE(watch_.may_map()) << "doubt ends with good matches";
 }
 
-TEST_F(LocalisationWatchTest, AGoodMatchAfterABreakOfTheSurroundingsIsDoubtedUntilItHasPassed) {
-  LocalFix good = matched_fix();
-  good.score = 0.97;
-  observe(good, 30);
-  LocalFix elsewhere = good;
-  elsewhere.has_broken_off = true;
-  observe(elsewhere, options_.new_map_scans + 10);
-  EXPECT_EQ(watch_.health().cause, Cause::kDoubt);
-  EXPECT_FALSE(watch_.may_map());
-  EXPECT_FALSE(watch_.needs_new_map()) << "while all scans fit";
-  elsewhere.score = 0.7;
-  observe(elsewhere, options_.new_map_scans);
-  EXPECT_TRUE(watch_.needs_new_map());
-}
-
 TEST_F(LocalisationWatchTest, AWrongMountingOutlastsSmallerFaultsAndSaysWhatToCheck) {
   observe(matched_fix());
   observe(faulty_fix(MotionFault::kLaserReversed));

@@ -44,22 +44,6 @@ TEST(Continuity, IsLowForARobotThatWasCarried) {
   EXPECT_LT(continuity(beams_from(Pose2(3.5, -2.0, -2.0), &laser), before, Pose2()), 0.65);
 }
 
-TEST(MutualContinuity, TellsTheRoomApartFromAnotherOne) {
-  SimulatedLaser laser(furnished_room());
-  const Pose2 before(0.0, -1.0, 0.3);
-  const Pose2 step(0.15, 0.0, 0.1);
-  const std::vector<Vector2d> seen = returns_from(before, &laser);
-  EXPECT_GT(mutual_continuity(beams_from(before * step, &laser), seen, step), 0.8);
-  std::vector<test::Wall> other;
-  test::add_box({-4.5, -6.0}, {3.5, 5.0}, &other);
-  SimulatedLaser elsewhere(other);
-  for (const double turn_rad : {0.0, 0.7, 1.0, 2.5, 4.0, 5.0}) {
-    EXPECT_LT(mutual_continuity(beams_from(Pose2(0.4, -0.3, turn_rad), &elsewhere), seen, step),
-              0.6)
-        << turn_rad;
-  }
-}
-
 TEST(Continuity, IsNoneWithoutReturns) {
   SimulatedLaser laser(furnished_room());
   EXPECT_EQ(continuity(ScanBeams(), returns_from(Pose2(), &laser), Pose2()), 0.0);
