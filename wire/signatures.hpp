@@ -120,7 +120,7 @@ CAIRN_SIGNATURE(cairn_lcm::sonar_ring_t, "q i f[1] f[1] f[1] f[1]");
 CAIRN_SIGNATURE(cairn_lcm::status_t,
                 "q q i s i s s  q q q q  i i i q d i i q s  "
                 "i s s s d d d d q q q i f f s q q q q q q q q q s  "
-                "q q q q q q q q q q q q i i f f f");
+                "q q q q q q q q q q q q q i i f f f");
 CAIRN_SIGNATURE(cairn_lcm::tile_t, CAIRN_TILE);
 CAIRN_SIGNATURE(cairn_lcm::topology_t,
                 "q q q q q d q i i {" CAIRN_PLACE "}[8] i {" CAIRN_SEGMENT "}[10]");

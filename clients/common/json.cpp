@@ -69,6 +69,7 @@ Json counters_of(const cairn_lcm::status_t& status) {
           {"scans_dropped", status.scans_dropped},
           {"scans_refused", status.scans_refused},
           {"scans_out_of_order", status.scans_out_of_order},
+          {"laser_changes", status.laser_changes},
           {"odometry_received", status.odometry_received},
           {"odometry_refused", status.odometry_refused},
           {"clock_steps", status.clock_steps},

@@ -152,7 +152,9 @@ Json summary_of(const Replay& replay, const Engine& engine, double spent_s) {
   const Tally& tally = replay.tally();
   const double log_s = static_cast<double>(tally.last_utime - tally.first_utime) * 1e-6;
   Json refused = Json::object();
+  std::int64_t laser_changes = 0;
   for (const auto& [channel, counters] : replay.inlets().counters()) {
+    laser_changes += counters.laser_changes;
     const std::int64_t all = counters.refused + counters.malformed + counters.unknown_type;
     if (all > 0) {
       refused[channel] = {{"messages", all}, {"last", counters.last_refusal}};
@@ -172,6 +174,7 @@ Json summary_of(const Replay& replay, const Engine& engine, double spent_s) {
           {"clock_steps", joiner.clock_steps},
           {"gaps", joiner.gaps},
           {"scans_without_odometry", joiner.scans_without_odometry},
+          {"laser_changes", laser_changes},
           {"refused", refused},
           {"skipped", tally.skipped},
           {"visits", state->visit_count},

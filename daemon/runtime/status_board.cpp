@@ -131,6 +131,7 @@ void StatusBoard::add_inlet_counters(const Inlets& inlets, cairn_lcm::status_t* 
         options_.odometry_channels.end();
     (is_odometry ? status->odometry_refused : status->scans_refused) +=
         counters.refused + counters.in_future;
+    status->laser_changes += counters.laser_changes;
     status->decode_errors += counters.malformed;
     status->unknown_types += counters.unknown_type;
   }

@@ -12,6 +12,8 @@ constexpr int kOdometryQueue = 200;
 
 /// A sender that makes up types must not fill our memory.
 constexpr std::size_t kMostRemarks = 100;
+/// Of one channel that are worth a line in the log; all are counted.
+constexpr std::int64_t kMostChangesSaid = 20;
 
 }  // namespace
 
@@ -59,8 +61,10 @@ Inlets::Inlets(const InletOptions& options, Sinks sinks) {
         [laser](const std::uint8_t* bytes, std::size_t size) {
           return scan_of(bytes, size, laser);
         },
-        [sink = sinks.scan, number = static_cast<int>(i)](LaserScan scan) {
+        [this, sink = sinks.scan, number = static_cast<int>(i),
+         channel = laser.channel](LaserScan scan) {
           scan.laser = number;
+          watch_shape(scan, channel);
           sink(std::move(scan));
         });
   }
@@ -98,6 +102,17 @@ void Inlets::add_channel(const std::string& channel,
   };
   channels_[channel] = {queue_capacity, receive};
   counters_[channel];
+}
+
+void Inlets::watch_shape(const LaserScan& scan, const std::string& channel) {
+  const std::optional<std::string> change = shapes_[scan.laser].take(scan);
+  if (!change) {
+    return;
+  }
+  const std::int64_t changes = ++counters_.find(channel)->second.laser_changes;
+  if (changes <= kMostChangesSaid && remarks_.size() < kMostRemarks) {
+    remarks_.push_back(channel + ": " + *change);
+  }
 }
 
 Inlets::Outcome Inlets::refuse(std::string_view channel,

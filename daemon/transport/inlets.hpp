@@ -14,6 +14,7 @@
 #include "base/result.hpp"
 #include "sensing/time.hpp"
 #include "transport/adapters.hpp"
+#include "transport/laser_shape.hpp"
 #include "wire/bus.hpp"
 
 namespace cairn {
@@ -39,6 +40,7 @@ struct ChannelCounters {
   std::int64_t in_future = 0;     ///< Stamped ahead of our clock.
   std::int64_t malformed = 0;     ///< Bytes that are no message.
   std::int64_t unknown_type = 0;  ///< A fingerprint nobody knows.
+  std::int64_t laser_changes = 0;  ///< Of the beams or the view of a laser, in the midst of work.
   std::string last_refusal;       ///< Why the last one was not accepted; empty: none yet.
 };
 
@@ -74,8 +76,8 @@ class Inlets {
   [[nodiscard]] const std::map<std::string, ChannelCounters, std::less<>>& counters() const {
     return counters_;
   }
-  /// What is new and worth a line in the log: each unknown type once, and the first refusal of a
-  /// channel. Empties the list.
+  /// What is new and worth a line in the log: each unknown type once, the first refusal of a
+  /// channel, and the first changes of a laser. Empties the list.
   [[nodiscard]] std::vector<std::string> take_remarks() { return std::exchange(remarks_, {}); }
 
  private:
@@ -88,10 +90,12 @@ class Inlets {
 
   template <class Adapter, class Sink>
   void add_channel(const std::string& channel, int queue_capacity, Adapter adapter, Sink sink);
+  void watch_shape(const LaserScan& scan, const std::string& channel);
   Outcome refuse(std::string_view channel, const Error& error, ChannelCounters* counters);
 
   std::map<std::string, Channel, std::less<>> channels_;
   std::map<std::string, ChannelCounters, std::less<>> counters_;
+  std::map<int, LaserShapeWatch> shapes_;  ///< By laser.
   std::vector<std::string> remarks_;
   std::set<std::string> named_;  ///< Channels with unknown types that were remarked on.
 };

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -5,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "geometry/angle.hpp"
 #include "support/message_samples.hpp"
 #include "transport/inlets.hpp"
 #include "wire/signatures.hpp"
@@ -101,6 +104,60 @@ TEST_F(InletsTest, StampsAheadOfTheClockAreRefusedOnlyWhenThereIsAClock) {
   EXPECT_EQ(counters("LASER").in_future, 1);
   EXPECT_EQ(dispatch("LASER", scan, time_of_utime(9'000'000)), Outcome::kAccepted);
   EXPECT_EQ(dispatch("LASER", scan), Outcome::kAccepted);
+}
+
+/// A scan of so many beams over so many degrees.
+cairn_lcm::laser_scan_t scan_of_shape(int beams, double degrees) {
+  auto scan = test::sample<cairn_lcm::laser_scan_t>();
+  scan.num_ranges = beams;
+  scan.ranges_m.assign(static_cast<std::size_t>(beams), 2.0F);
+  const double view_rad = degrees * kPi / 180.0;
+  scan.first_bearing_rad = -view_rad / 2.0;
+  scan.bearing_step_rad = view_rad / (beams - 1);
+  return scan;
+}
+
+TEST_F(InletsTest, ALaserWhoseBeamsChangeInTheMidstOfWorkIsToldOfOnce) {
+  for (int i = 0; i < 50; ++i) {
+    dispatch("LASER", scan_of_shape(181, 180.0));
+  }
+  EXPECT_THAT(inlets_.take_remarks(), IsEmpty());
+  for (int i = 0; i < 50; ++i) {
+    EXPECT_EQ(dispatch("LASER", scan_of_shape(541, 270.0)), Outcome::kAccepted);
+  }
+  EXPECT_THAT(inlets_.take_remarks(),
+              ElementsAre(HasSubstr("LASER: the laser now gives 541 beams over 270 degrees, it "
+                                    "gave 181 beams over 180 degrees")));
+  EXPECT_EQ(counters("LASER").laser_changes, 1);
+}
+
+TEST_F(InletsTest, ALaserThatHasGoneBlindOnOneSideIsToldOf) {
+  cairn_lcm::laser_scan_t scan = scan_of_shape(181, 180.0);
+  for (int i = 0; i < 20; ++i) {
+    dispatch("LASER", scan);
+  }
+  std::fill(scan.ranges_m.begin(), scan.ranges_m.begin() + 90,
+            std::numeric_limits<float>::quiet_NaN());
+  for (int i = 0; i < 20; ++i) {
+    dispatch("LASER", scan);
+  }
+  EXPECT_THAT(inlets_.take_remarks(), ElementsAre(HasSubstr("181 beams over 90 degrees")));
+}
+
+TEST_F(InletsTest, ASpinningLaserWhoseScansAreNeverAlikeIsNoNews) {
+  for (int i = 0; i < 200; ++i) {
+    dispatch("LASER", scan_of_shape(i % 3 == 0 ? 250 : 330 + i % 40, 352.0 + i % 7));
+  }
+  EXPECT_THAT(inlets_.take_remarks(), IsEmpty());
+  EXPECT_EQ(counters("LASER").laser_changes, 0);
+}
+
+TEST_F(InletsTest, ALaserThatChangesForeverDoesNotFillTheLog) {
+  for (int i = 0; i < 2'000; ++i) {
+    dispatch("LASER", scan_of_shape((i / 20) % 2 == 0 ? 181 : 361, 180.0));
+  }
+  EXPECT_LE(inlets_.take_remarks().size(), 20U);
+  EXPECT_EQ(counters("LASER").laser_changes, 99);
 }
 
 TEST_F(InletsTest, TheLiveBusTakesTheSameWay) {

@@ -54,7 +54,7 @@ TEST(Fingerprints, AreWhatTheyWere) {
       CAIRN_GOLDEN(cairn_lcm::snapshot_chunk_t, 0xb25d9c966c0de137),
       CAIRN_GOLDEN(cairn_lcm::snapshot_request_t, 0xab58f68426f09869),
       CAIRN_GOLDEN(cairn_lcm::sonar_ring_t, 0x2e090798c624ed21),
-      CAIRN_GOLDEN(cairn_lcm::status_t, 0xd70fd02675eaf4e4),
+      CAIRN_GOLDEN(cairn_lcm::status_t, 0x78a9e401a68b407e),
       CAIRN_GOLDEN(cairn_lcm::tile_t, 0xb87e5a344b6a8dfb),
       CAIRN_GOLDEN(cairn_lcm::topology_t, 0x5b420a8eee10c6d1),
       CAIRN_GOLDEN(cairn_lcm::trajectory_t, 0xa38319762c318f14),
