@@ -18,6 +18,7 @@ void ScanBeams::take(const LaserScan& scan, const Twist& twist, double max_free_
   returns_.clear();
   origins_.clear();
   numbers_.clear();
+  ranges_m_.clear();
   free_beams_.clear();
   const std::size_t beams = scan.ranges_m.size();
   const double beam_s = beams > 1 ? scan.sweep_duration_s / static_cast<double>(beams - 1) : 0.0;
@@ -45,6 +46,7 @@ void ScanBeams::take(const LaserScan& scan, const Twist& twist, double max_free_
       returns_.push_back({from + range_m * along, Vector2d::Zero()});
       origins_.push_back(from);
       numbers_.push_back(static_cast<std::uint32_t>(i));
+      ranges_m_.push_back(scan.ranges_m[i]);
     } else {
       free_beams_.push_back({from, from + free_m * along});
     }

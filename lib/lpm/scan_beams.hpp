@@ -38,6 +38,8 @@ class ScanBeams {
   [[nodiscard]] const std::vector<Vector2d>& origins() const { return origins_; }
   /// The number within the scan of each of returns().
   [[nodiscard]] const std::vector<std::uint32_t>& numbers() const { return numbers_; }
+  /// How long each of returns() is.
+  [[nodiscard]] const std::vector<float>& ranges_m() const { return ranges_m_; }
   /// Mean angle between neighbouring beams.
   [[nodiscard]] double spacing_rad() const { return spacing_rad_; }
   [[nodiscard]] const std::vector<Beam>& free_beams() const { return free_beams_; }
@@ -50,6 +52,7 @@ class ScanBeams {
   std::vector<SurfacePoint> returns_;
   std::vector<Vector2d> origins_;
   std::vector<std::uint32_t> numbers_;
+  std::vector<float> ranges_m_;
   std::vector<Beam> free_beams_;
   double spacing_rad_ = 0.0;
   std::vector<float> bearings_rad_;   // of the scan before, most often the same

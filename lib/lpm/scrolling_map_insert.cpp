@@ -25,9 +25,7 @@ double share_freed_by_neighbours(const ScanBeams& beams, std::size_t i, double c
       numbers[i - apart] + apart != number || numbers[i + apart] - apart != number) {
     return 0.0;
   }
-  const auto range_m = [&beams](std::size_t k) {
-    return (beams.returns()[k].p - beams.origins()[k]).norm();
-  };
+  const auto range_m = [&beams](std::size_t k) { return static_cast<double>(beams.ranges_m()[k]); };
   const double free_m = std::min({kApart_cells * cell_m / (beams.spacing_rad() * apart),
                                   range_m(i - apart) - cell_m, range_m(i + apart) - cell_m});
   const double own_m = range_m(i);
