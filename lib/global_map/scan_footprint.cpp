@@ -1,14 +1,14 @@
 #include "global_map/scan_footprint.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
-
-#include "grid/ray_trace.hpp"
 
 namespace cairn {
 namespace {
+
+constexpr int kWordCells = 64;
 
 /// How far a beam without return is free. One or a few such beams between two that hit something
 /// are glass or a dark surface, not a hole: they are free no farther than their neighbours.
@@ -34,81 +34,130 @@ double free_range_m(const std::vector<float>& ranges_m, std::size_t beam, double
 
 }  // namespace
 
-ScanFootprint::ScanFootprint(double cell_m, double draw_range_m) : draw_range_m_(draw_range_m) {
-  const int reach_cells = static_cast<int>(std::ceil(draw_range_m / cell_m)) + 2;
-  window_.cell_m = cell_m;
-  window_.width = window_.height = 2 * reach_cells + 1;
-  marks_.resize(window_.cell_count(), Mark::kNone);
-  low_row_ = window_.height;
+ScanFootprint::ScanFootprint(double cell_m, double draw_range_m)
+    : cell_m_(cell_m),
+      draw_range_m_(draw_range_m),
+      reach_cells_(static_cast<int>(std::ceil(draw_range_m / cell_m)) + 2),
+      row_words_((2 * reach_cells_ + 1) / kWordCells + 2),
+      low_row_(2 * reach_cells_ + 1) {
+  marks_.resize(static_cast<std::size_t>(low_row_) * static_cast<std::size_t>(row_words_), 0);
 }
 
-const std::vector<TouchedCell>& ScanFootprint::of(const LaserScan& scan,
-                                                  const Pose2& T_global_laser) {
-  const Vector2d laser = T_global_laser.translation();
-  const Cell corner{static_cast<int>(std::floor(laser.x() / window_.cell_m)) - window_.width / 2,
-                    static_cast<int>(std::floor(laser.y() / window_.cell_m)) - window_.height / 2};
-  window_.origin_m = window_.cell_m * Vector2d(corner.x, corner.y);
+const TouchedCells& ScanFootprint::of(const LaserScan& scan, const Pose2& T_global_laser) {
+  look_up_directions(scan.bearings_rad);
+  const Vector2d laser_cells = T_global_laser.translation() / cell_m_;
+  // Words begin at multiples of their length, where tiles of a common size begin too.
+  const int left = static_cast<int>(std::floor(laser_cells.x())) - reach_cells_;
+  const Cell corner{left & -kWordCells,
+                    static_cast<int>(std::floor(laser_cells.y())) - reach_cells_};
+  const Vector2d from_cells = laser_cells - Vector2d(corner.x, corner.y);
+  const Vector2d ahead(std::cos(T_global_laser.theta()) / cell_m_,
+                       std::sin(T_global_laser.theta()) / cell_m_);
   const double reach_m = std::min(draw_range_m_, scan.max_range_m);
+  touched_.hits.clear();
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const double range_m = static_cast<double>(scan.ranges_m[i]);
     if (std::isnan(range_m)) {
       continue;
     }
-    const double bearing_rad = T_global_laser.theta() + static_cast<double>(scan.bearings_rad[i]);
-    const Vector2d direction(std::cos(bearing_rad), std::sin(bearing_rad));
     const double free_m =
         std::isinf(range_m) ? free_range_m(scan.ranges_m, i, reach_m) : std::min(range_m, reach_m);
-    trace(laser, laser + free_m * direction, range_m <= reach_m);
+    const Vector2d& direction = directions_[i];
+    const Vector2d to_cells =
+        from_cells + free_m * Vector2d(ahead.x() * direction.x() - ahead.y() * direction.y(),
+                                       ahead.y() * direction.x() + ahead.x() * direction.y());
+    mark_beam(from_cells, to_cells);
+    if (range_m <= reach_m) {
+      touched_.hits.push_back({static_cast<int>(to_cells.x()), static_cast<int>(to_cells.y())});
+    }
   }
-  for (const std::size_t hit : hits_) {
-    marks_[hit] = Mark::kHit;  // Whatever passes there.
+  // Whatever passes there; the first of several beams stands for all.
+  std::erase_if(touched_.hits, [this](Cell hit) { return !take_mark(hit); });
+  for (Cell& hit : touched_.hits) {
+    hit = {corner.x + hit.x, corner.y + hit.y};
   }
-  hits_.clear();
   collect(corner);
   return touched_;
 }
 
-/// Empties the window row by row, so that cells of one tile follow each other.
-void ScanFootprint::collect(Cell corner) {
-  constexpr std::size_t kWord = sizeof(std::uint64_t);
-  touched_.clear();
-  const auto width = static_cast<std::size_t>(window_.width);
-  for (int row = low_row_; row <= high_row_; ++row) {
-    Mark* const marks = marks_.data() + static_cast<std::size_t>(row) * width;
-    for (std::size_t column = 0; column < width; ++column) {
-      std::uint64_t word = 1;
-      if (column + kWord <= width) {
-        std::memcpy(&word, marks + column, kWord);
-      }
-      if (word == 0) {
-        column += kWord - 1;  // Most of the window is not touched.
-        continue;
-      }
-      if (marks[column] != Mark::kNone) {
-        touched_.push_back(
-            {{corner.x + static_cast<int>(column), corner.y + row}, marks[column] == Mark::kHit});
-        marks[column] = Mark::kNone;
-      }
-    }
-  }
-  low_row_ = window_.height;
-  high_row_ = -1;
-}
-
-void ScanFootprint::trace(const Vector2d& from, const Vector2d& to, bool is_hit) {
-  ray_.clear();
-  trace_ray(window_, from, to, &ray_);
-  if (ray_.empty()) {
+void ScanFootprint::look_up_directions(const std::vector<float>& bearings_rad) {
+  if (bearings_rad == bearings_rad_) {
     return;
   }
-  for (const Cell& cell : ray_) {
-    marks_[window_.index_of(cell)] = Mark::kPassed;
+  bearings_rad_ = bearings_rad;
+  directions_.clear();
+  for (const float bearing_rad : bearings_rad) {
+    const auto rad = static_cast<double>(bearing_rad);
+    directions_.emplace_back(std::cos(rad), std::sin(rad));
   }
-  low_row_ = std::min({low_row_, ray_.front().y, ray_.back().y});
-  high_row_ = std::max({high_row_, ray_.front().y, ray_.back().y});
-  if (is_hit) {
-    hits_.push_back(window_.index_of(ray_.back()));
+}
+
+/// Row by row: the cells of a row lie between where the beam enters and where it leaves it.
+void ScanFootprint::mark_beam(const Vector2d& from_cells, const Vector2d& to_cells) {
+  // Coordinates are > 0, so that whole numbers are the floor.
+  const int last_row = static_cast<int>(to_cells.y());
+  int row = static_cast<int>(from_cells.y());
+  low_row_ = std::min({low_row_, row, last_row});
+  high_row_ = std::max({high_row_, row, last_row});
+  int column = static_cast<int>(from_cells.x());
+  if (row != last_row) {
+    const int step = last_row > row ? 1 : -1;
+    const double slope = (to_cells.x() - from_cells.x()) / (to_cells.y() - from_cells.y());
+    const double low_x = std::min(from_cells.x(), to_cells.x());
+    const double high_x = std::max(from_cells.x(), to_cells.x());
+    double border_y = last_row > row ? row + 1.0 : row;
+    for (; row != last_row; row += step, border_y += step) {
+      const double leaves_x = from_cells.x() + slope * (border_y - from_cells.y());
+      const int next = static_cast<int>(std::min(std::max(leaves_x, low_x), high_x));
+      mark(row, column, next);
+      column = next;
+    }
   }
+  mark(last_row, column, static_cast<int>(to_cells.x()));
+}
+
+/// Both columns and those between them.
+inline void ScanFootprint::mark(int row, int column, int other_column) {
+  const auto low = static_cast<unsigned>(std::min(column, other_column));
+  const auto high = static_cast<unsigned>(std::max(column, other_column));
+  Word* word = marks_.data() + row * row_words_ + low / kWordCells;
+  Word* const last_word = marks_.data() + row * row_words_ + high / kWordCells;
+  Word bits = ~Word{0} << (low % kWordCells);
+  for (; word != last_word; ++word) {
+    *word |= bits;
+    bits = ~Word{0};
+  }
+  *word |= bits & (~Word{0} >> (kWordCells - 1 - high % kWordCells));
+}
+
+bool ScanFootprint::take_mark(Cell cell) {
+  Word& word = marks_[static_cast<std::size_t>(cell.y * row_words_ + cell.x / kWordCells)];
+  const Word bit = Word{1} << (cell.x % kWordCells);
+  const bool is_marked = (word & bit) != 0;
+  word &= ~bit;
+  return is_marked;
+}
+
+/// Empties the window row by row.
+void ScanFootprint::collect(Cell corner) {
+  touched_.passed.clear();
+  for (int row = low_row_; row <= high_row_; ++row) {
+    Word* const words = marks_.data() + row * row_words_;
+    for (int i = 0; i < row_words_; ++i) {
+      int x = corner.x + kWordCells * i;
+      for (Word word = words[i]; word != 0;) {
+        const int gap = std::countr_zero(word);
+        const int length = std::countr_one(word >> gap);
+        touched_.passed.push_back({corner.y + row, x + gap, x + gap + length});
+        x += gap + length;
+        // In two steps, as a shift by all of a word is undefined.
+        word = (word >> gap >> (length - 1)) >> 1;
+      }
+      words[i] = 0;
+    }
+  }
+  low_row_ = 2 * reach_cells_ + 1;
+  high_row_ = -1;
 }
 
 }  // namespace cairn
