@@ -62,21 +62,25 @@ GlobalMap::GlobalMap(const GlobalMapOptions& options)
   percent_of_counts_.front() = kUnknownPercent;
 }
 
-/// The tiles drawn on last, by the low bits of their indices: a scan comes back to a tile in every
-/// row of cells.
+/// The tiles drawn on last: a scan stays in a tile for some cells, and comes back to it in every
+/// row of them.
 class GlobalMap::RecentTiles {
  public:
-  explicit RecentTiles(GlobalMap* map) : map_(map) {}
+  explicit RecentTiles(GlobalMap* map) : map_(map), side_(map->options_.tile_cells) {}
 
-  /// As GlobalMap::tile_to_draw_on.
-  Tile* at(TileIndex index) {
-    constexpr unsigned kSide = 8;
-    Entry& entry = entries_[kSide * (static_cast<unsigned>(index.y) % kSide) +
-                            static_cast<unsigned>(index.x) % kSide];
-    if (entry.index != index) {
-      entry = {index, map_->tile_to_draw_on(index)};
+  /// The tile of a cell, as GlobalMap::tile_to_draw_on.
+  Tile* at(Cell cell) {
+    if (cell.x < corner_.x || cell.x >= corner_.x + side_ || cell.y < corner_.y ||
+        cell.y >= corner_.y + side_ || !is_any_) {
+      go_to({floored_quotient(cell.x, side_), floored_quotient(cell.y, side_)});
     }
-    return entry.tile;
+    return tile_;
+  }
+  /// The lowest cell of the tile asked for last.
+  [[nodiscard]] Cell corner() const { return corner_; }
+  /// Of a cell in the tile asked for last.
+  [[nodiscard]] std::size_t number_of(Cell cell) const {
+    return static_cast<std::size_t>((cell.y - corner_.y) * side_ + cell.x - corner_.x);
   }
 
  private:
@@ -84,8 +88,25 @@ class GlobalMap::RecentTiles {
     TileIndex index{std::numeric_limits<int>::min(), 0};  // of no tile
     Tile* tile = nullptr;
   };
+
+  void go_to(TileIndex index) {
+    constexpr unsigned kSide = 8;
+    Entry& entry = entries_[kSide * (static_cast<unsigned>(index.y) % kSide) +
+                            static_cast<unsigned>(index.x) % kSide];
+    if (entry.index != index) {
+      entry = {index, map_->tile_to_draw_on(index)};
+    }
+    tile_ = entry.tile;
+    corner_ = {index.x * side_, index.y * side_};
+    is_any_ = true;
+  }
+
   GlobalMap* map_;
-  std::array<Entry, 64> entries_;
+  int side_;
+  std::array<Entry, 64> entries_;  // by the low bits of the index
+  Tile* tile_ = nullptr;
+  Cell corner_;
+  bool is_any_ = false;
 };
 
 std::vector<TileIndex> GlobalMap::draw(const std::vector<PosedScan>& scans) {
@@ -134,8 +155,10 @@ std::size_t GlobalMap::unchanged_count(const std::vector<PosedScan>& scans) cons
 bool GlobalMap::is_drawn_well(const Pose2& drawn, const Pose2& wanted) const {
   const double x_m = wanted.x() - drawn.x();
   const double y_m = wanted.y() - drawn.y();
+  const double turn_rad = wanted.theta() - drawn.theta();
   return x_m * x_m + y_m * y_m <= options_.moved_m * options_.moved_m &&
-         std::abs(turn_between(drawn.theta(), wanted.theta())) <= options_.turned_rad;
+         (std::abs(turn_rad) <= options_.turned_rad ||  // Most often; wrapping takes long.
+          std::abs(wrap_angle(turn_rad)) <= options_.turned_rad);
 }
 
 /// Adds the evidence of a scan so many times; takes it out for -1.
@@ -145,31 +168,33 @@ void GlobalMap::count(const PosedScan& scan, std::int32_t times, RecentTiles* re
   }
   const TouchedCells& touched =
       footprint_.of(*scan.scan, scan.T_global_robot * scan.scan->T_robot_laser);
-  const int side = options_.tile_cells;
   for (const Cell& hit : touched.hits) {
-    const TileIndex index{floored_quotient(hit.x, side), floored_quotient(hit.y, side)};
-    if (Tile* const tile = recent->at(index)) {
-      tile->hits[cell_number(hit.x - index.x * side, hit.y - index.y * side)] += times;
+    if (Tile* const tile = recent->at(hit)) {
+      tile->hits[recent->number_of(hit)] += times;
     } else {
       cells_beyond_budget_ += times > 0 ? 1 : 0;
     }
   }
   for (const CellSpan& span : touched.passed) {
-    const int tile_y = floored_quotient(span.y, side);
-    for (int x = span.begin_x; x < span.end_x;) {
-      const TileIndex index{floored_quotient(x, side), tile_y};
-      const int end_x = std::min(span.end_x, (index.x + 1) * side);
-      if (Tile* const tile = recent->at(index)) {
-        std::int32_t* const misses =
-            &tile->misses[cell_number(x - index.x * side, span.y - tile_y * side)];
-        for (int i = 0; i < end_x - x; ++i) {
-          misses[i] += times;
-        }
-      } else {
-        cells_beyond_budget_ += times > 0 ? end_x - x : 0;
+    count_misses(span, times, recent);
+  }
+}
+
+void GlobalMap::count_misses(const CellSpan& span, std::int32_t times, RecentTiles* recent) {
+  const int side = options_.tile_cells;
+  for (int x = span.begin_x; x < span.end_x;) {
+    const Cell at{x, span.y};
+    Tile* const tile = recent->at(at);
+    const int end_x = std::min(span.end_x, recent->corner().x + side);
+    if (tile != nullptr) {
+      std::int32_t* const misses = &tile->misses[recent->number_of(at)];
+      for (int i = 0; i < end_x - x; ++i) {
+        misses[i] += times;
       }
-      x = end_x;
+    } else {
+      cells_beyond_budget_ += times > 0 ? end_x - x : 0;
     }
+    x = end_x;
   }
 }
 

@@ -95,12 +95,9 @@ class GlobalMap {
 
   [[nodiscard]] std::size_t unchanged_count(const std::vector<PosedScan>& scans) const;
   void count(const PosedScan& scan, std::int32_t times, RecentTiles* recent);
+  void count_misses(const CellSpan& span, std::int32_t times, RecentTiles* recent);
   [[nodiscard]] Tile* tile_to_draw_on(TileIndex index);
   [[nodiscard]] bool is_drawn_well(const Pose2& drawn, const Pose2& wanted) const;
-  [[nodiscard]] std::size_t cell_number(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(options_.tile_cells) +
-           static_cast<std::size_t>(column);
-  }
   [[nodiscard]] double log_odds_of(std::int32_t hits, std::int32_t misses) const;
   std::vector<TileIndex> take_changed();
 

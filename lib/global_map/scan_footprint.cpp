@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace cairn {
 namespace {
@@ -38,9 +39,10 @@ ScanFootprint::ScanFootprint(double cell_m, double draw_range_m)
     : cell_m_(cell_m),
       draw_range_m_(draw_range_m),
       reach_cells_(static_cast<int>(std::ceil(draw_range_m / cell_m)) + 2),
-      row_words_((2 * reach_cells_ + 1) / kWordCells + 2),
-      low_row_(2 * reach_cells_ + 1) {
-  marks_.resize(static_cast<std::size_t>(low_row_) * static_cast<std::size_t>(row_words_), 0);
+      row_words_((2 * reach_cells_ + 1) / kWordCells + 2) {
+  const auto rows = static_cast<std::size_t>(2 * reach_cells_ + 1);
+  marks_.resize(rows * static_cast<std::size_t>(row_words_), 0);
+  outline_.resize(marks_.size(), 0);
 }
 
 const TouchedCells& ScanFootprint::of(const LaserScan& scan, const Pose2& T_global_laser) {
@@ -50,28 +52,12 @@ const TouchedCells& ScanFootprint::of(const LaserScan& scan, const Pose2& T_glob
   const int left = static_cast<int>(std::floor(laser_cells.x())) - reach_cells_;
   const Cell corner{left & -kWordCells,
                     static_cast<int>(std::floor(laser_cells.y())) - reach_cells_};
-  const Vector2d from_cells = laser_cells - Vector2d(corner.x, corner.y);
-  const Vector2d ahead(std::cos(T_global_laser.theta()) / cell_m_,
-                       std::sin(T_global_laser.theta()) / cell_m_);
-  const double reach_m = std::min(draw_range_m_, scan.max_range_m);
-  touched_.hits.clear();
-  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
-    const double range_m = static_cast<double>(scan.ranges_m[i]);
-    if (std::isnan(range_m)) {
-      continue;
-    }
-    const double free_m =
-        std::isinf(range_m) ? free_range_m(scan.ranges_m, i, reach_m) : std::min(range_m, reach_m);
-    const Vector2d& direction = directions_[i];
-    const Vector2d to_cells =
-        from_cells + free_m * Vector2d(ahead.x() * direction.x() - ahead.y() * direction.y(),
-                                       ahead.y() * direction.x() + ahead.x() * direction.y());
-    mark_beam(from_cells, to_cells);
-    if (range_m <= reach_m) {
-      touched_.hits.push_back({static_cast<int>(to_cells.x()), static_cast<int>(to_cells.y())});
-    }
-  }
-  // Whatever passes there; the first of several beams stands for all.
+  laser_cells_ = laser_cells - Vector2d(corner.x, corner.y);
+  ahead_ = {std::cos(T_global_laser.theta()), std::sin(T_global_laser.theta())};
+  look_up_beams(scan);
+  mark_beams();
+  fill_between_beams();
+  // Whatever passes there, it is a hit; the first of several stands for all.
   std::erase_if(touched_.hits, [this](Cell hit) { return !take_mark(hit); });
   for (Cell& hit : touched_.hits) {
     hit = {corner.x + hit.x, corner.y + hit.y};
@@ -85,35 +71,96 @@ void ScanFootprint::look_up_directions(const std::vector<float>& bearings_rad) {
     return;
   }
   bearings_rad_ = bearings_rad;
+  const std::size_t count = bearings_rad.size();
   directions_.clear();
   for (const float bearing_rad : bearings_rad) {
     const auto rad = static_cast<double>(bearing_rad);
     directions_.emplace_back(std::cos(rad), std::sin(rad));
   }
+  dense_cells_.assign(count, 0.0);
+  const auto gap_after = [&](std::size_t i) {
+    return static_cast<double>(bearings_rad[i + 1]) - static_cast<double>(bearings_rad[i]);
+  };
+  for (std::size_t i = 1; i + 1 < count; ++i) {
+    if (gap_after(i - 1) * gap_after(i) <= 0.0) {
+      dense_cells_.assign(count, 0.0);  // Not in order: neighbours may lie anywhere.
+      return;
+    }
+    dense_cells_[i] = 1.0 / std::max(std::abs(gap_after(i - 1)), std::abs(gap_after(i)));
+  }
 }
 
-/// Row by row: the cells of a row lie between where the beam enters and where it leaves it.
-void ScanFootprint::mark_beam(const Vector2d& from_cells, const Vector2d& to_cells) {
+void ScanFootprint::look_up_beams(const LaserScan& scan) {
+  const std::size_t count = scan.ranges_m.size();
+  const double reach_m = std::min(draw_range_m_, scan.max_range_m);
+  beams_.assign(count, {});
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto range_m = static_cast<double>(scan.ranges_m[i]);
+    if (std::isnan(range_m)) {
+      continue;
+    }
+    const double free_m =
+        std::isinf(range_m) ? free_range_m(scan.ranges_m, i, reach_m) : std::min(range_m, reach_m);
+    beams_[i].free_cells = free_m / cell_m_;
+    beams_[i].is_hit = range_m <= reach_m;
+  }
+  for (std::size_t i = 1; i + 1 < count; ++i) {
+    beams_[i].filled_cells = std::min({dense_cells_[i], beams_[i - 1].free_cells,
+                                       beams_[i].free_cells, beams_[i + 1].free_cells});
+  }
+}
+
+void ScanFootprint::mark_beams() {
+  constexpr double kMarginCells = 1.0;
+  low_row_ = high_row_ = static_cast<int>(laser_cells_.y());
+  touched_.hits.clear();
+  for (std::size_t i = 0; i < beams_.size(); ++i) {
+    const Beam& beam = beams_[i];
+    if (beam.free_cells <= 0.0) {
+      continue;
+    }
+    double from_cells = 0.0;
+    if (beam.filled_cells > 0.0) {  // Not at the ends.
+      const double filled_cells =
+          std::min({beams_[i - 1].filled_cells, beam.filled_cells, beams_[i + 1].filled_cells});
+      from_cells = std::max(0.0, filled_cells - kMarginCells);
+    }
+    const Vector2d to = point_on(i, beam.free_cells);
+    mark_line(from_cells > 0.0 ? point_on(i, from_cells) : laser_cells_, to);
+    if (beam.is_hit) {
+      touched_.hits.push_back({static_cast<int>(to.x()), static_cast<int>(to.y())});
+    }
+  }
+}
+
+Vector2d ScanFootprint::point_on(std::size_t beam, double range_cells) const {
+  const Vector2d& way = directions_[beam];
+  return laser_cells_ + range_cells * Vector2d(ahead_.x() * way.x() - ahead_.y() * way.y(),
+                                               ahead_.y() * way.x() + ahead_.x() * way.y());
+}
+
+/// Row by row: the cells of a row lie between where the line enters and where it leaves it.
+void ScanFootprint::mark_line(const Vector2d& from, const Vector2d& to) {
   // Coordinates are > 0, so that whole numbers are the floor.
-  const int last_row = static_cast<int>(to_cells.y());
-  int row = static_cast<int>(from_cells.y());
+  const int last_row = static_cast<int>(to.y());
+  int row = static_cast<int>(from.y());
   low_row_ = std::min({low_row_, row, last_row});
   high_row_ = std::max({high_row_, row, last_row});
-  int column = static_cast<int>(from_cells.x());
+  int column = static_cast<int>(from.x());
   if (row != last_row) {
     const int step = last_row > row ? 1 : -1;
-    const double slope = (to_cells.x() - from_cells.x()) / (to_cells.y() - from_cells.y());
-    const double low_x = std::min(from_cells.x(), to_cells.x());
-    const double high_x = std::max(from_cells.x(), to_cells.x());
+    const double slope = (to.x() - from.x()) / (to.y() - from.y());
+    const double low_x = std::min(from.x(), to.x());
+    const double high_x = std::max(from.x(), to.x());
     double border_y = last_row > row ? row + 1.0 : row;
     for (; row != last_row; row += step, border_y += step) {
-      const double leaves_x = from_cells.x() + slope * (border_y - from_cells.y());
+      const double leaves_x = from.x() + slope * (border_y - from.y());
       const int next = static_cast<int>(std::min(std::max(leaves_x, low_x), high_x));
       mark(row, column, next);
       column = next;
     }
   }
-  mark(last_row, column, static_cast<int>(to_cells.x()));
+  mark(last_row, column, static_cast<int>(to.x()));
 }
 
 /// Both columns and those between them.
@@ -128,6 +175,58 @@ inline void ScanFootprint::mark(int row, int column, int other_column) {
     bits = ~Word{0};
   }
   *word |= bits & (~Word{0} >> (kWordCells - 1 - high % kWordCells));
+}
+
+/// Marks the cells whose centres lie in the star-shaped polygon that ends each beam where it is
+/// filled: where the outline has been crossed an odd number of times from the left.
+void ScanFootprint::fill_between_beams() {
+  int low_row = 2 * reach_cells_ + 1;
+  int high_row = -1;
+  Vector2d from = laser_cells_;  // As the first and the last beam are not filled.
+  for (std::size_t i = 1; i < beams_.size(); ++i) {
+    const Vector2d to = point_on(i, beams_[i].filled_cells);
+    const bool is_up = from.y() < to.y();
+    const Vector2d& low = is_up ? from : to;
+    const Vector2d& high = is_up ? to : from;
+    const int first_row = static_cast<int>(low.y() + 0.5);
+    const int end_row = static_cast<int>(high.y() + 0.5);
+    if (first_row < end_row) {
+      cross_rows(low, high, first_row, end_row);
+      low_row = std::min(low_row, first_row);
+      high_row = std::max(high_row, end_row - 1);
+    }
+    from = to;
+  }
+  for (int row = low_row; row <= high_row; ++row) {
+    Word* const outline = outline_.data() + row * row_words_;
+    Word* const marks = marks_.data() + row * row_words_;
+    Word before = 0;  // All ones where the word before ends within.
+    for (int i = 0; i < row_words_; ++i) {
+      Word within = std::exchange(outline[i], 0);
+      for (int shift = 1; shift < kWordCells; shift *= 2) {
+        within ^= within << shift;
+      }
+      within ^= before;
+      before = Word{0} - (within >> (kWordCells - 1));
+      marks[i] |= within;
+    }
+  }
+}
+
+/// Turns over the first cell of each row whose centre lies right of the edge.
+void ScanFootprint::cross_rows(const Vector2d& low,
+                               const Vector2d& high,
+                               int first_row,
+                               int end_row) {
+  const double slope = (high.x() - low.x()) / (high.y() - low.y());
+  const double low_x = std::min(low.x(), high.x());
+  const double high_x = std::max(low.x(), high.x());
+  for (int row = first_row; row < end_row; ++row) {
+    const double x = low.x() + slope * (row + 0.5 - low.y());
+    const auto column = static_cast<unsigned>(std::min(std::max(x, low_x), high_x) + 0.5);
+    outline_[static_cast<unsigned>(row * row_words_) + column / kWordCells] ^=
+        Word{1} << (column % kWordCells);
+  }
 }
 
 bool ScanFootprint::take_mark(Cell cell) {
@@ -156,8 +255,6 @@ void ScanFootprint::collect(Cell corner) {
       words[i] = 0;
     }
   }
-  low_row_ = 2 * reach_cells_ + 1;
-  high_row_ = -1;
 }
 
 }  // namespace cairn

@@ -22,12 +22,17 @@ struct TouchedCells {
 };
 
 /// Finds the cells that a scan touches, each once: where one beam ends and others pass, it is a
-/// hit, so that a wall seen at a grazing angle is not erased by the neighbouring beams. A beam
-/// passes every cell that it crosses, and none beside it: between beams a thin thing may stand
-/// unseen. Keeps its buffers between scans; what it finds does not depend on them.
+/// hit, so that a wall seen at a grazing angle is not erased by the neighbouring beams.
 ///
-/// Cost: linear in the rows of cells that the beams cross and in the cells of a window around the
-/// laser, of which 64 are one step.
+/// Beams pass the cells that they cross, and none beside them: between beams a thin thing may stand
+/// unseen. Near the laser, where two beams are less than a cell apart, every cell with its centre
+/// between them is crossed by one of them; there the space between beams is filled at once instead,
+/// up to the nearer end of both and their neighbours. Cells that a beam only clips, with their
+/// centres beyond half a cell from it, may be left out there.
+///
+/// Keeps its buffers between scans; what it finds does not depend on them. Cost: linear in the rows
+/// of cells that beams cross where they are not filled, and in the window around the laser, of
+/// which 64 cells are one step.
 class ScanFootprint {
  public:
   ScanFootprint(double cell_m, double draw_range_m);
@@ -40,23 +45,41 @@ class ScanFootprint {
   [[nodiscard]] const TouchedCells& of(const LaserScan& scan, const Pose2& T_global_laser);
 
  private:
-  using Word = std::uint64_t;
+  using Word = std::uint64_t;  ///< One bit for a cell.
+  struct Beam {
+    double free_cells = 0.0;  ///< 0: says nothing.
+    double filled_cells = 0.0;
+    bool is_hit = false;
+  };
 
   void look_up_directions(const std::vector<float>& bearings_rad);
-  void mark_beam(const Vector2d& from_cells, const Vector2d& to_cells);
+  void look_up_beams(const LaserScan& scan);
+  void mark_beams();
+  void mark_line(const Vector2d& from, const Vector2d& to);
   void mark(int row, int column, int other_column);
+  void fill_between_beams();
+  void cross_rows(const Vector2d& low, const Vector2d& high, int first_row, int end_row);
+  [[nodiscard]] Vector2d point_on(std::size_t beam, double range_cells) const;
   [[nodiscard]] bool take_mark(Cell cell);
   void collect(Cell corner);
 
   double cell_m_;
   double draw_range_m_;
   int reach_cells_;
-  int row_words_;            ///< Words of a row of the window around the laser.
-  std::vector<Word> marks_;  ///< One bit for a cell of the window; all 0 between calls.
-  int low_row_;              ///< Of the marks; above high_row_ where there are none.
-  int high_row_ = -1;
+  int row_words_;  ///< Words of a row of the window around the laser.
+
   std::vector<float> bearings_rad_;   ///< Of the scan before: most often those of the next one.
   std::vector<Vector2d> directions_;  ///< Of these bearings, in the laser frame.
+  /// Up to where beams are within a cell of their neighbours; 0 for the first and the last one.
+  std::vector<double> dense_cells_;
+
+  Vector2d laser_cells_ = Vector2d::Zero();  ///< Coordinates are counted in cells of the window.
+  Vector2d ahead_ = Vector2d::Zero();        ///< Of the laser, in the global frame.
+  std::vector<Beam> beams_;
+  std::vector<Word> marks_;    ///< Row by row; all 0 between calls.
+  std::vector<Word> outline_;  ///< Cells at which filling begins or ends; all 0 between calls.
+  int low_row_ = 0;            ///< Of the marks.
+  int high_row_ = -1;
   TouchedCells touched_;
 };
 
