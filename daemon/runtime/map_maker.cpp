@@ -17,8 +17,10 @@ std::vector<PosedScan> scans_worth_drawing(const std::vector<PosedScan>& traject
   std::vector<PosedScan> worth;
   for (const PosedScan& posed : trajectory) {
     if (!worth.empty()) {
-      const Pose2 motion = worth.back().T_global_robot.inverse() * posed.T_global_robot;
-      if (motion.translation().norm() < kMoved_m && std::abs(motion.theta()) < kTurned_rad) {
+      const Pose2& last = worth.back().T_global_robot;
+      const Pose2& next = posed.T_global_robot;
+      if ((next.translation() - last.translation()).norm() < kMoved_m &&
+          std::abs(turn_between(last.theta(), next.theta())) < kTurned_rad) {
         continue;
       }
     }
@@ -47,8 +49,12 @@ std::map<wire::TileIndex, wire::TileCells> MapMaker::draw(const MapState& state)
   std::map<wire::TileIndex, wire::TileCells> changed;
   for (const TileIndex& tile : map_.draw(scans_worth_drawing(state.trajectory))) {
     const wire::TileIndex index{tile.x, tile.y};
-    changed[index] = std::make_shared<const wire::Bytes>(map_.percent_of(tile));
-    grid_.tiles[index] = changed[index];
+    wire::TileCells& held = grid_.tiles[index];
+    wire::Bytes percent = map_.percent_of(tile);
+    if (held == nullptr || *held != percent) {  // More of the same evidence may change nothing.
+      held = std::make_shared<const wire::Bytes>(std::move(percent));
+      changed[index] = held;
+    }
   }
   if (!changed.empty()) {
     ++grid_.revision;

@@ -28,7 +28,7 @@ class MapMaker {
   explicit MapMaker(const GlobalMapOptions& options);
 
   /// Draws what changed since the last time.
-  /// @return the changed tiles
+  /// @return the tiles that look different now
   std::map<wire::TileIndex, wire::TileCells> draw(const MapState& state);
 
   /// Everything that is stored, as it is now.

@@ -1,9 +1,12 @@
 #include "global_map/global_map.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <string>
+#include <iterator>
+#include <limits>
 #include <unordered_map>
+#include <utility>
 
 #include "base/check.hpp"
 #include "base/validator.hpp"
@@ -14,9 +17,16 @@ namespace {
 constexpr double kFarthest_m = 1e6;
 /// Log odds beyond which more evidence changes nothing: 99.3 %.
 constexpr double kMaxLogOdds = 5.0;
+/// Counts of hits and of misses below which the percentage is looked up.
+constexpr int kTabulated = 64;
 
 int floored_quotient(int value, int divisor) {
   return value >= 0 ? value / divisor : -((divisor - 1 - value) / divisor);
+}
+
+std::uint8_t percent_of_log_odds(double log_odds) {
+  const double probability = 1.0 / (1.0 + std::exp(-log_odds));
+  return static_cast<std::uint8_t>(std::lround(100.0 * probability));
 }
 
 bool can_be_drawn(const Pose2& pose) {
@@ -42,15 +52,72 @@ Status validate(const GlobalMapOptions& options) {
 GlobalMap::GlobalMap(const GlobalMapOptions& options)
     : options_(options), footprint_(options.cell_m, options.draw_range_m) {
   CAIRN_CHECK(validate(options).ok());
+  percent_of_counts_.reserve(kTabulated * kTabulated);
+  for (int hits = 0; hits < kTabulated; ++hits) {
+    for (int misses = 0; misses < kTabulated; ++misses) {
+      percent_of_counts_.push_back(percent_of_log_odds(log_odds_of(hits, misses)));
+    }
+  }
+  percent_of_counts_.front() = kUnknownPercent;
 }
 
+/// The tiles drawn on last: a scan stays in a tile for some cells, and comes back to it in every
+/// row of them.
+class GlobalMap::RecentTiles {
+ public:
+  explicit RecentTiles(GlobalMap* map) : map_(map), side_(map->options_.tile_cells) {}
+
+  /// The tile of a cell, as GlobalMap::tile_to_draw_on.
+  Tile* at(Cell cell) {
+    if (cell.x < corner_.x || cell.x >= corner_.x + side_ || cell.y < corner_.y ||
+        cell.y >= corner_.y + side_ || !is_any_) {
+      go_to({floored_quotient(cell.x, side_), floored_quotient(cell.y, side_)});
+    }
+    return tile_;
+  }
+  /// The lowest cell of the tile asked for last.
+  [[nodiscard]] Cell corner() const { return corner_; }
+  /// Of a cell in the tile asked for last.
+  [[nodiscard]] std::size_t number_of(Cell cell) const {
+    return static_cast<std::size_t>((cell.y - corner_.y) * side_ + cell.x - corner_.x);
+  }
+
+ private:
+  struct Entry {
+    TileIndex index{std::numeric_limits<int>::min(), 0};  // of no tile
+    Tile* tile = nullptr;
+  };
+
+  void go_to(TileIndex index) {
+    constexpr unsigned kSide = 8;
+    Entry& entry = entries_[kSide * (static_cast<unsigned>(index.y) % kSide) +
+                            static_cast<unsigned>(index.x) % kSide];
+    if (entry.index != index) {
+      entry = {index, map_->tile_to_draw_on(index)};
+    }
+    tile_ = entry.tile;
+    corner_ = {index.x * side_, index.y * side_};
+    is_any_ = true;
+  }
+
+  GlobalMap* map_;
+  int side_;
+  std::array<Entry, 64> entries_;  // by the low bits of the index
+  Tile* tile_ = nullptr;
+  Cell corner_;
+  bool is_any_ = false;
+};
+
 std::vector<TileIndex> GlobalMap::draw(const std::vector<PosedScan>& scans) {
+  const std::size_t unchanged = unchanged_count(scans);
   std::unordered_map<const LaserScan*, std::size_t> drawn_at;
-  for (std::size_t i = 0; i < drawn_.size(); ++i) {
+  for (std::size_t i = unchanged; i < drawn_.size(); ++i) {
     drawn_at.emplace(drawn_[i].scan.get(), i);
   }
+  RecentTiles recent(this);
   std::vector<bool> is_kept(drawn_.size(), false);
-  std::vector<PosedScan> wanted = scans;
+  std::vector<PosedScan> wanted(scans.begin() + static_cast<std::ptrdiff_t>(unchanged),
+                                scans.end());
   for (PosedScan& scan : wanted) {
     CAIRN_CHECK(scan.scan != nullptr);
     const auto found = drawn_at.find(scan.scan.get());
@@ -59,48 +126,74 @@ std::vector<TileIndex> GlobalMap::draw(const std::vector<PosedScan>& scans) {
       is_kept[found->second] = true;
       scan.T_global_robot = drawn_[found->second].T_global_robot;
     } else {
-      count(scan, 1);
+      count(scan, 1, &recent);
     }
   }
-  for (std::size_t i = 0; i < drawn_.size(); ++i) {
+  for (std::size_t i = unchanged; i < drawn_.size(); ++i) {
     if (!is_kept[i]) {
-      count(drawn_[i], -1);
+      count(drawn_[i], -1, &recent);
     }
   }
-  drawn_ = std::move(wanted);
+  drawn_.resize(unchanged);
+  drawn_.insert(drawn_.end(), std::make_move_iterator(wanted.begin()),
+                std::make_move_iterator(wanted.end()));
   return take_changed();
 }
 
+/// How many of the first scans are drawn already, in the same order: nearly all, most of the time.
+std::size_t GlobalMap::unchanged_count(const std::vector<PosedScan>& scans) const {
+  const std::size_t common = std::min(scans.size(), drawn_.size());
+  std::size_t i = 0;
+  while (i < common && scans[i].scan == drawn_[i].scan &&
+         is_drawn_well(drawn_[i].T_global_robot, scans[i].T_global_robot)) {
+    ++i;
+  }
+  return i;
+}
+
 bool GlobalMap::is_drawn_well(const Pose2& drawn, const Pose2& wanted) const {
-  return std::hypot(wanted.x() - drawn.x(), wanted.y() - drawn.y()) <= options_.moved_m &&
-         std::abs(turn_between(drawn.theta(), wanted.theta())) <= options_.turned_rad;
+  const double x_m = wanted.x() - drawn.x();
+  const double y_m = wanted.y() - drawn.y();
+  const double turn_rad = wanted.theta() - drawn.theta();
+  return x_m * x_m + y_m * y_m <= options_.moved_m * options_.moved_m &&
+         (std::abs(turn_rad) <= options_.turned_rad ||  // Most often; wrapping takes long.
+          std::abs(wrap_angle(turn_rad)) <= options_.turned_rad);
 }
 
 /// Adds the evidence of a scan so many times; takes it out for -1.
-void GlobalMap::count(const PosedScan& scan, std::int32_t times) {
+void GlobalMap::count(const PosedScan& scan, std::int32_t times, RecentTiles* recent) {
   if (!can_be_drawn(scan.T_global_robot)) {
     return;
   }
-  const Pose2 T_global_laser = scan.T_global_robot * scan.scan->T_robot_laser;
-  const int side = options_.tile_cells;
-  Tile* tile = nullptr;
-  Cell low{0, 0};   // of the tile
-  Cell high{0, 0};  // beyond the tile
-  for (const TouchedCell& touched : footprint_.of(*scan.scan, T_global_laser)) {
-    const Cell& at = touched.cell;
-    if (at.x < low.x || at.x >= high.x || at.y < low.y || at.y >= high.y) {
-      const TileIndex index{floored_quotient(at.x, side), floored_quotient(at.y, side)};
-      tile = tile_to_draw_on(index);
-      low = {index.x * side, index.y * side};
-      high = {low.x + side, low.y + side};
-    }
-    if (tile == nullptr) {
+  const TouchedCells& touched =
+      footprint_.of(*scan.scan, scan.T_global_robot * scan.scan->T_robot_laser);
+  for (const Cell& hit : touched.hits) {
+    if (Tile* const tile = recent->at(hit)) {
+      tile->hits[recent->number_of(hit)] += times;
+    } else {
       cells_beyond_budget_ += times > 0 ? 1 : 0;
-      continue;
     }
-    Evidence& evidence =
-        tile->cells[static_cast<std::size_t>((at.y - low.y) * side + at.x - low.x)];
-    (touched.is_hit ? evidence.hits : evidence.misses) += times;
+  }
+  for (const CellSpan& span : touched.passed) {
+    count_misses(span, times, recent);
+  }
+}
+
+void GlobalMap::count_misses(const CellSpan& span, std::int32_t times, RecentTiles* recent) {
+  const int side = options_.tile_cells;
+  for (int x = span.begin_x; x < span.end_x;) {
+    const Cell at{x, span.y};
+    Tile* const tile = recent->at(at);
+    const int end_x = std::min(span.end_x, recent->corner().x + side);
+    if (tile != nullptr) {
+      std::int32_t* const misses = &tile->misses[recent->number_of(at)];
+      for (int i = 0; i < end_x - x; ++i) {
+        misses[i] += times;
+      }
+    } else {
+      cells_beyond_budget_ += times > 0 ? end_x - x : 0;
+    }
+    x = end_x;
   }
 }
 
@@ -113,21 +206,21 @@ GlobalMap::Tile* GlobalMap::tile_to_draw_on(TileIndex index) {
       return nullptr;
     }
     const auto side = static_cast<std::size_t>(options_.tile_cells);
-    found = tiles_.emplace(index, Tile{std::vector<Evidence>(side * side), false}).first;
+    found = tiles_.emplace(index, Tile(side * side)).first;
   }
-  found->second.is_changed = true;
+  if (!found->second.is_changed) {
+    found->second.is_changed = true;
+    changed_.push_back(index);
+  }
   return &found->second;
 }
 
 std::vector<TileIndex> GlobalMap::take_changed() {
-  std::vector<TileIndex> changed;
-  for (auto& [index, tile] : tiles_) {
-    if (tile.is_changed) {
-      changed.push_back(index);
-      tile.is_changed = false;
-    }
+  std::sort(changed_.begin(), changed_.end());
+  for (const TileIndex& index : changed_) {
+    tiles_.find(index)->second.is_changed = false;
   }
-  return changed;
+  return std::exchange(changed_, {});
 }
 
 std::vector<TileIndex> GlobalMap::tiles() const {
@@ -138,10 +231,9 @@ std::vector<TileIndex> GlobalMap::tiles() const {
   return indices;
 }
 
-double GlobalMap::log_odds_of(const Evidence& evidence) const {
-  return std::clamp(
-      evidence.hits * options_.hit_log_odds - evidence.misses * options_.miss_log_odds,
-      -kMaxLogOdds, kMaxLogOdds);
+double GlobalMap::log_odds_of(std::int32_t hits, std::int32_t misses) const {
+  return std::clamp(hits * options_.hit_log_odds - misses * options_.miss_log_odds, -kMaxLogOdds,
+                    kMaxLogOdds);
 }
 
 std::vector<std::uint8_t> GlobalMap::percent_of(TileIndex tile) const {
@@ -151,69 +243,17 @@ std::vector<std::uint8_t> GlobalMap::percent_of(TileIndex tile) const {
   if (found == tiles_.end()) {
     return percent;
   }
+  const Tile& drawn = found->second;
   for (std::size_t i = 0; i < percent.size(); ++i) {
-    const Evidence& evidence = found->second.cells[i];
-    if (evidence.hits > 0 || evidence.misses > 0) {
-      const double probability = 1.0 / (1.0 + std::exp(-log_odds_of(evidence)));
-      percent[i] = static_cast<std::uint8_t>(std::lround(100.0 * probability));
+    const std::int32_t hits = drawn.hits[i];
+    const std::int32_t misses = drawn.misses[i];
+    if (hits < kTabulated && misses < kTabulated) {
+      percent[i] = percent_of_counts_[static_cast<std::size_t>(kTabulated * hits + misses)];
+    } else {
+      percent[i] = percent_of_log_odds(log_odds_of(hits, misses));
     }
   }
   return percent;
-}
-
-Result<OccupancyGrid> GlobalMap::empty_grid(std::size_t max_cells) const {
-  GridGeometry geometry;
-  geometry.cell_m = options_.cell_m;
-  if (tiles_.empty()) {
-    return OccupancyGrid(geometry);
-  }
-  const int side = options_.tile_cells;
-  TileIndex lower = tiles_.begin()->first;
-  TileIndex upper = lower;
-  for (const auto& [index, tile] : tiles_) {
-    lower = {std::min(lower.x, index.x), std::min(lower.y, index.y)};
-    upper = {std::max(upper.x, index.x), std::max(upper.y, index.y)};
-  }
-  const double columns = (1.0 + upper.x - lower.x) * side;
-  const double rows = (1.0 + upper.y - lower.y) * side;
-  if (columns * rows > static_cast<double>(max_cells)) {
-    return Error{ErrorCode::kUnavailable, "global map: " + std::to_string(columns) + " x " +
-                                              std::to_string(rows) + " cells are too many"};
-  }
-  geometry.width = static_cast<int>(columns);
-  geometry.height = static_cast<int>(rows);
-  geometry.origin_m = side * options_.cell_m * Vector2d(lower.x, lower.y);
-  return OccupancyGrid(geometry);
-}
-
-void GlobalMap::copy_tile(TileIndex index, OccupancyGrid* grid) const {
-  const auto found = tiles_.find(index);
-  if (found == tiles_.end()) {
-    return;
-  }
-  const int side = options_.tile_cells;
-  const Vector2d corner_m = side * options_.cell_m * Vector2d(index.x, index.y);
-  const Vector2d away = (corner_m - grid->geometry().origin_m) / options_.cell_m;
-  const Cell low{static_cast<int>(std::lround(away.x())), static_cast<int>(std::lround(away.y()))};
-  CAIRN_CHECK(grid->contains(low) && grid->contains({low.x + side - 1, low.y + side - 1}));
-  const Evidence* evidence = found->second.cells.data();
-  for (int y = low.y; y < low.y + side; ++y) {
-    OccupancyGrid::LogOdds* const row = &grid->log_odds({low.x, y});
-    for (int x = 0; x < side; ++x) {
-      row[x] = static_cast<OccupancyGrid::LogOdds>(
-          std::lround(OccupancyGrid::kLogOddsPerUnit * log_odds_of(*evidence++)));
-    }
-  }
-}
-
-Result<OccupancyGrid> GlobalMap::to_grid(std::size_t max_cells) const {
-  Result<OccupancyGrid> grid = empty_grid(max_cells);
-  if (grid) {
-    for (const auto& [index, tile] : tiles_) {
-      copy_tile(index, &*grid);
-    }
-  }
-  return grid;
 }
 
 }  // namespace cairn

@@ -84,25 +84,29 @@ class GlobalMap {
   [[nodiscard]] std::int64_t cells_beyond_budget() const { return cells_beyond_budget_; }
 
  private:
-  struct Evidence {
-    std::int32_t hits = 0;
-    std::int32_t misses = 0;
-  };
+  /// Evidence by cell, row by row.
   struct Tile {
-    std::vector<Evidence> cells;
-    bool is_changed = false;
+    explicit Tile(std::size_t cells) : hits(cells, 0), misses(cells, 0) {}
+    std::vector<std::int32_t> hits;
+    std::vector<std::int32_t> misses;
+    bool is_changed = false;  ///< Is in changed_.
   };
+  class RecentTiles;
 
-  void count(const PosedScan& scan, std::int32_t times);
+  [[nodiscard]] std::size_t unchanged_count(const std::vector<PosedScan>& scans) const;
+  void count(const PosedScan& scan, std::int32_t times, RecentTiles* recent);
+  void count_misses(const CellSpan& span, std::int32_t times, RecentTiles* recent);
   [[nodiscard]] Tile* tile_to_draw_on(TileIndex index);
   [[nodiscard]] bool is_drawn_well(const Pose2& drawn, const Pose2& wanted) const;
-  [[nodiscard]] double log_odds_of(const Evidence& evidence) const;
+  [[nodiscard]] double log_odds_of(std::int32_t hits, std::int32_t misses) const;
   std::vector<TileIndex> take_changed();
 
   GlobalMapOptions options_;
   ScanFootprint footprint_;
+  std::vector<std::uint8_t> percent_of_counts_;  ///< By hits and misses, where both are small.
   std::map<TileIndex, Tile> tiles_;
-  std::vector<PosedScan> drawn_;  ///< As they are drawn.
+  std::vector<TileIndex> changed_;  ///< Since the last time, each once.
+  std::vector<PosedScan> drawn_;    ///< As they are drawn.
   std::int64_t cells_beyond_budget_ = 0;
 };
 

@@ -37,6 +37,23 @@ TEST(MapMaker, TellsWhichTilesChangedAndCountsARevisionForThem) {
   EXPECT_FALSE(maker.draw(state).empty());
 }
 
+TEST(MapMaker, ATileThatLooksAsBeforeHasNotChanged) {
+  MapMaker maker({});
+  MapState state;
+  for (int round = 0; round < 20; ++round) {
+    for (const PosedScan& scan : poses({Pose2(), Pose2(5.0, 0.0, 0.0)})) {
+      state.trajectory.push_back(scan);
+    }
+  }
+  EXPECT_FALSE(maker.draw(state).empty());
+  for (const PosedScan& scan : poses({Pose2(), Pose2(5.0, 0.0, 0.0)})) {
+    state.trajectory.push_back(scan);  // What was seen there twenty times.
+  }
+  EXPECT_TRUE(maker.draw(state).empty());
+  state.trajectory.push_back(poses({Pose2(0.0, 7.0, 0.0)}).front());
+  EXPECT_FALSE(maker.draw(state).empty());
+}
+
 TEST(MapMaker, ItsDocumentsAreMessages) {
   MapMaker maker({});
   MapState state;

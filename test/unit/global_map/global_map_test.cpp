@@ -171,6 +171,59 @@ TEST(GlobalMap, AfterAnyHistoryEqualsTheMapDrawnAfresh) {
   }
 }
 
+TEST(GlobalMap, EqualsTheMapDrawnAfreshAfterEveryOfManyChanges) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const std::vector<PosedScan> more = random_scans(seed, 20);
+    std::vector<PosedScan> scans(more.begin(), more.begin() + 8);
+    GlobalMap map;
+    map.draw(scans);
+    for (std::size_t step = 8; step < more.size(); ++step) {
+      const std::size_t at = random() % scans.size();
+      switch (random() % 4) {
+        case 0:
+          scans.erase(scans.begin() + static_cast<std::ptrdiff_t>(at));
+          break;
+        case 1:
+          std::swap(scans[at], scans.back());
+          break;
+        case 2:
+          scans[at].T_global_robot = scans[at].T_global_robot * Pose2(0.1, 0.2, -0.1);
+          break;
+        default:
+          break;
+      }
+      scans.push_back(more[step]);
+      map.draw(scans);
+      GlobalMap afresh;
+      afresh.draw(scans);
+      expect_same(map, afresh);
+    }
+  }
+}
+
+TEST(GlobalMap, OneMoreScanChangesTheTilesUnderItOnly) {
+  std::vector<PosedScan> scans = random_scans(6, 12);
+  GlobalMap map;
+  map.draw(scans);
+  scans.push_back({scan_of({0.0F, 1.0F}, {0.5F, kNoStatement}), {40.5, -20.5, 0.0}});
+  EXPECT_THAT(map.draw(scans), ElementsAre(TileIndex{12, -7}));
+}
+
+TEST(GlobalMap, EvidenceOfManyScansIsAsSureAsThatOfSome) {
+  GlobalMap map;
+  std::vector<PosedScan> scans;
+  for (const int count : {20, 63, 64, 200}) {
+    while (static_cast<int>(scans.size()) < count) {
+      scans.push_back({scan_of({0.0F, 1.0F}, {0.5F, kNoStatement}), {0.52, 0.52, 0.0}});
+    }
+    map.draw(scans);
+    EXPECT_EQ(percent_at(map, 0.62, 0.52), 1) << count;
+    EXPECT_EQ(percent_at(map, 1.02, 0.52), 99) << count;
+  }
+}
+
 TEST(GlobalMap, DoesNotDependOnTheOrderOfScans) {
   std::vector<PosedScan> scans = random_scans(3, 12);
   GlobalMap map;

@@ -91,6 +91,22 @@ TEST(Replication, ARedrawnMapTravelsBySnapshot) {
   EXPECT_LE(simulation.deltas_sent() - deltas_before, 2);
 }
 
+TEST(Replication, ATileThatIsAsBeforeIsNotSentAgain) {
+  Simulation simulation(1, 0.0);
+  simulation.add_client();
+  const GridChange change{kMap, 0.1, 4, {{{1, 1}, random_tile(simulation.bus().random(), 4)}}};
+  simulation.server().change(simulation.bus().now_us(), 0, kMap, change);
+  ASSERT_GE(simulation.seconds_to_convergence(2.0), 0.0);
+  const std::int64_t sent = simulation.deltas_sent();
+  const std::int64_t revision = simulation.server().revision(kMap);
+  GridChange same = change;
+  same.tiles.begin()->second = std::make_shared<const Bytes>(*change.tiles.begin()->second);
+  simulation.server().change(simulation.bus().now_us(), 0, kMap, same);
+  simulation.run(100 * kMillisecond);
+  EXPECT_EQ(simulation.deltas_sent(), sent);
+  EXPECT_EQ(simulation.server().revision(kMap), revision);
+}
+
 TEST(Replication, ALostLastDeltaIsNoticed) {
   Simulation simulation(1, 0.0);
   simulation.add_client();
