@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace cairn {
@@ -19,8 +20,8 @@ double normal_cdf(double z) {
 /// The ways from place to place along the travels.
 class Ways {
  public:
-  Ways(const PlaceLayout& layout, const std::vector<TravelConstraint>& travels)
-      : layout_(layout), steps_(layout.T_global_place.size()) {
+  Ways(const std::vector<Pose2>& T_global_place, const std::vector<TravelConstraint>& travels)
+      : T_global_place_(T_global_place), steps_(T_global_place.size()) {
     for (const TravelConstraint& travel : travels) {
       steps_[index(travel.from)].push_back({index(travel.to), travel.T_from_to});
       steps_[index(travel.to)].push_back({index(travel.from), inverted(travel.T_from_to)});
@@ -59,7 +60,7 @@ class Ways {
   }
 
   [[nodiscard]] Pose2 T_between(std::size_t a, std::size_t b) const {
-    return layout_.T_global_place[a].inverse() * layout_.T_global_place[b];
+    return T_global_place_[a].inverse() * T_global_place_[b];
   }
 
  private:
@@ -69,9 +70,37 @@ class Ways {
   };
   static std::size_t index(int place) { return static_cast<std::size_t>(place); }
 
-  const PlaceLayout& layout_;
+  const std::vector<Pose2>& T_global_place_;
   std::vector<std::vector<Step>> steps_;
 };
+
+using Pair = std::pair<std::size_t, std::size_t>;
+
+/// The pairs of places that lie no farther from each other, each with its lower number first, in
+/// the order of these numbers.
+std::vector<Pair> pairs_within(double distance_m, const std::vector<Pose2>& T_global_place) {
+  std::vector<std::size_t> eastwards(T_global_place.size());
+  std::iota(eastwards.begin(), eastwards.end(), std::size_t{0});
+  std::stable_sort(eastwards.begin(), eastwards.end(), [&](std::size_t a, std::size_t b) {
+    return T_global_place[a].x() < T_global_place[b].x();
+  });
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < eastwards.size(); ++i) {
+    const Pose2& here = T_global_place[eastwards[i]];
+    for (std::size_t j = i + 1; j < eastwards.size(); ++j) {
+      const Pose2& there = T_global_place[eastwards[j]];
+      if (there.x() - here.x() > distance_m) {
+        break;
+      }
+      if ((there.translation() - here.translation()).norm() <= distance_m) {
+        pairs.emplace_back(std::min(eastwards[i], eastwards[j]),
+                           std::max(eastwards[i], eastwards[j]));
+      }
+    }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
 
 /// That something at p, which is uncertain, is within a square of this half side around the origin,
 /// turned towards p.
@@ -90,25 +119,26 @@ double probability_near(const Vector2d& p, const Matrix3d& covariance, double wi
 
 }  // namespace
 
-double log_exclusion(const PlaceLayout& layout,
+double log_exclusion(const std::vector<Pose2>& T_global_place,
                      const std::vector<TravelConstraint>& travels,
                      const Exclusion& exclusion) {
-  const Ways ways(layout, travels);
-  const std::size_t places = layout.T_global_place.size();
+  const std::vector<Pair> near = pairs_within(kFarOff * exclusion.apart_m, T_global_place);
+  if (near.empty()) {
+    return 0.0;
+  }
+  const Ways ways(T_global_place, travels);
   double sum = 0.0;
-  for (std::size_t a = 0; a < places; ++a) {
-    std::vector<Matrix3d> covariances;  // worked out for the first that is near
-    for (std::size_t b = a + 1; b < places; ++b) {
-      const Vector2d p = ways.T_between(a, b).translation();
-      if (p.norm() > kFarOff * exclusion.apart_m) {
-        continue;
-      }
-      if (covariances.empty()) {
-        covariances = ways.covariances_from(a);
-      }
-      const double near = probability_near(p, covariances[b], exclusion.apart_m);
-      sum += near < 1.0 ? std::max(exclusion.log_least, std::log1p(-near)) : exclusion.log_least;
+  std::size_t from = T_global_place.size();
+  std::vector<Matrix3d> covariances;
+  for (const auto& [a, b] : near) {
+    if (a != from) {
+      from = a;
+      covariances = ways.covariances_from(a);
     }
+    const double together =
+        probability_near(ways.T_between(a, b).translation(), covariances[b], exclusion.apart_m);
+    sum +=
+        together < 1.0 ? std::max(exclusion.log_least, std::log1p(-together)) : exclusion.log_least;
   }
   return sum;
 }

@@ -12,14 +12,16 @@ struct Exclusion {
   double log_least = -7.0;  ///< Of each pair: what looks so may be two floors. <= 0
 };
 
-/// What speaks against a layout because places lie on each other: the sum over pairs of places of
-/// the log of the probability that they are apart. <= 0, and 0 where none come near each other.
+/// What speaks against places lying so because places lie on each other: the sum over pairs of
+/// places of the log of the probability that they are apart. <= 0, and 0 where none come near each
+/// other.
 ///
 /// How uncertain a distance is, is taken from the surest way between the two places by the travels:
 /// never surer than it truly is, as other ways would only add to it.
 ///
-/// @param travels join all places of the layout; their covariances are positive definite
-[[nodiscard]] double log_exclusion(const PlaceLayout& layout,
+/// @param T_global_place by place
+/// @param travels join all of them; their covariances are positive definite
+[[nodiscard]] double log_exclusion(const std::vector<Pose2>& T_global_place,
                                    const std::vector<TravelConstraint>& travels,
                                    const Exclusion& exclusion);
 

@@ -35,6 +35,7 @@ MappingService::Pipeline::Pipeline(const ServiceOptions& options, StageObserver 
       relocaliser_(options.relocalisation),
       place_detector_(options.place),
       matcher_(experience_, options.recognition),
+      layouts_(options.layout),
       tree_(options.topology, evidence()) {}
 
 void MappingService::Pipeline::join(const OdometrySample& sample) {

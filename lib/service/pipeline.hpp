@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "layout/shared_layouts.hpp"
 #include "lpm/local_mapper.hpp"
 #include "lpm/localisation_watch.hpp"
 #include "place/place_detector.hpp"
@@ -113,6 +114,7 @@ class MappingService::Pipeline {
   PlaceDetector place_detector_;
   Experience experience_;
   VisitMatcher matcher_;
+  mutable SharedLayouts layouts_;  ///< Of the hypotheses; a memo.
   HypothesisTree tree_;
   std::optional<LaidOut> laid_out_;
   MetricalMap metrical_;                  ///< Of that hypothesis.

@@ -26,11 +26,11 @@ Evidence MappingService::Pipeline::evidence() const {
     } else {
       // The densities' normalisation is left out: it is the same for all maps of one experience.
       evidence.layout = [this](const TopologicalMap& map) {
-        const std::vector<TravelConstraint> travels = matcher_.constraints(map);
-        const Result<PlaceLayout> layout =
-            solve_layout(map.place_count(), travels, options_.layout);
+        const std::vector<TravelConstraint> travels = matcher_.constraints_by_visit(map);
+        const Result<LaidPlaces> layout = layouts_.lay_out(map.place_count(), travels);
         return layout ? -0.5 * (layout->chi2 + matcher_.chi2_of_unmatched(map)) +
-                            log_exclusion(*layout, travels, {options_.place.same_spot_m})
+                            log_exclusion(layout->T_global_place, travels,
+                                          {options_.place.same_spot_m})
                       : -std::numeric_limits<double>::infinity();
       };
     }

@@ -1,6 +1,7 @@
 #include "service/visit_matcher.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -10,6 +11,14 @@ namespace {
 /// Where the robot is said to be at a place, it is within this of its centre.
 constexpr double kLeastWide_m = 1.0;
 constexpr double kAnyHeading_rad = 10.0;
+
+template <class Ways>
+std::vector<TravelConstraint> constraints_of(const Ways& ways) {
+  std::vector<TravelConstraint> constraints;
+  std::transform(ways.begin(), ways.end(), std::back_inserter(constraints),
+                 [](const auto& way) { return way.constraint; });
+  return constraints;
+}
 
 }  // namespace
 
@@ -143,35 +152,52 @@ double VisitMatcher::chi2_of_unmatched(const TopologicalMap& map) const {
 }
 
 std::vector<TravelConstraint> VisitMatcher::constraints(const TopologicalMap& map) const {
-  std::vector<TravelConstraint> constraints;
-  for (int i = 0; i + 1 < map.visit_count(); ++i) {
-    const VisitId from{i};
-    const VisitId to{i + 1};
+  std::vector<Way> all = ways(map);
+  std::stable_partition(all.begin(), all.end(), [](const Way& way) { return !way.passes_visit; });
+  return constraints_of(all);
+}
+
+std::vector<TravelConstraint> VisitMatcher::constraints_by_visit(const TopologicalMap& map) const {
+  return constraints_of(ways(map));
+}
+
+std::vector<VisitMatcher::Way> VisitMatcher::ways(const TopologicalMap& map) const {
+  std::vector<Way> ways;
+  // Each visit's pose is asked for by the travel to it and by that from it.
+  std::vector<std::optional<GaussianPose>> matched;
+  for (int v = 0; v < map.visit_count(); ++v) {
+    matched.push_back(matched_at_place(map, VisitId{v}));
+  }
+  const auto T_place_visit = [&](VisitId visit) -> GaussianPose {
+    const std::optional<GaussianPose>& T_place = matched[visit.index()];
+    return T_place ? *T_place : dead_reckoned(map.first_visit(map.at_visit(visit).place), visit);
+  };
+  const auto add = [&](VisitId from, VisitId to, const GaussianPose& T_from_to) {
+    ways.push_back(
+        {{map.at_visit(from).place.value, map.at_visit(to).place.value,
+          compounded(compounded(T_place_visit(from), T_from_to), inverted(T_place_visit(to)))},
+         to.value - from.value > 1});
+  };
+  for (int v = 1; v < map.visit_count(); ++v) {
+    const VisitId to{v};
+    const VisitId from{v - 1};
     if (map.is_carried(to)) {
       continue;
     }
     const Travel& travel = experience_.travels()[from.index()];
-    constraints.push_back({map.at_visit(from).place.value, map.at_visit(to).place.value,
-                           compounded(compounded(T_place_visit(map, from), travel.T_from_to),
-                                      inverted(T_place_visit(map, to)))});
-  }
-  // Where a visit cannot be matched with its place, what holds the places before and after it
-  // together is the way between them.
-  for (int v = 1; v + 1 < map.visit_count(); ++v) {
-    const VisitId before{v - 1};
-    const VisitId after{v + 1};
-    if (map.is_carried(VisitId{v}) || map.is_carried(after) ||
-        map.at_visit(before).place == map.at_visit(after).place ||
-        matched_at_place(map, VisitId{v})) {
+    add(from, to, travel.T_from_to);
+    // Where a visit cannot be matched with its place, what holds the places before and after it
+    // together is the way between them.
+    if (v < 2 || map.is_carried(from) || matched[from.index()]) {
       continue;
     }
-    const GaussianPose way = compounded(experience_.travels()[before.index()].T_from_to,
-                                        experience_.travels()[before.index() + 1].T_from_to);
-    constraints.push_back({map.at_visit(before).place.value, map.at_visit(after).place.value,
-                           compounded(compounded(T_place_visit(map, before), way),
-                                      inverted(T_place_visit(map, after)))});
+    const VisitId before{v - 2};
+    if (map.at_visit(before).place != map.at_visit(to).place) {
+      add(before, to,
+          compounded(experience_.travels()[before.index()].T_from_to, travel.T_from_to));
+    }
   }
-  return constraints;
+  return ways;
 }
 
 }  // namespace cairn

@@ -43,6 +43,10 @@ class VisitMatcher {
   /// visit between them cannot be matched with its place.
   [[nodiscard]] std::vector<TravelConstraint> constraints(const TopologicalMap& map) const;
 
+  /// The same in the order of the visits that they lead to: a map that adds visits to another one
+  /// has that one's constraints first.
+  [[nodiscard]] std::vector<TravelConstraint> constraints_by_visit(const TopologicalMap& map) const;
+
   /// So much is kept of visits' maps made ready for comparison; beyond it the least recently used
   /// ones are dropped, and worked out anew when they are needed. A map of 8 m x 8 m takes 0.3 MB.
   static constexpr std::size_t kMaxBytesReady = std::size_t{128} << 20U;
@@ -60,6 +64,12 @@ class VisitMatcher {
   [[nodiscard]] std::vector<GatewayPair> pairs(VisitId known,
                                                VisitId visit,
                                                GatewayPair pair) const;
+  /// A travel, or two in a row.
+  struct Way {
+    TravelConstraint constraint;
+    bool passes_visit = false;
+  };
+  [[nodiscard]] std::vector<Way> ways(const TopologicalMap& map) const;
   /// None where no gateway was seen at both visits.
   [[nodiscard]] std::optional<GaussianPose> matched_at_place(const TopologicalMap& map,
                                                              VisitId visit) const;

@@ -27,21 +27,22 @@ struct Square {
 
 TEST(LogExclusion, NothingSpeaksAgainstPlacesFarFromEachOther) {
   const Square square(0.02, 2.5);
-  EXPECT_EQ(log_exclusion(square.layout, square.travels, {}), 0.0);
-  EXPECT_EQ(log_exclusion({}, {}, {}), 0.0);
+  EXPECT_EQ(log_exclusion(square.layout.T_global_place, square.travels, {}), 0.0);
+  EXPECT_EQ(log_exclusion(std::vector<Pose2>{}, {}, {}), 0.0);
 }
 
 TEST(LogExclusion, TwoPlacesSurelyAtOneSpotCountAsTheLeast) {
   const Square square(0.02);
-  EXPECT_DOUBLE_EQ(log_exclusion(square.layout, square.travels, {0.7, -7.0}), -7.0);
-  EXPECT_DOUBLE_EQ(log_exclusion(square.layout, square.travels, {0.7, -20.0}), -20.0);
+  EXPECT_DOUBLE_EQ(log_exclusion(square.layout.T_global_place, square.travels, {0.7, -7.0}), -7.0);
+  EXPECT_DOUBLE_EQ(log_exclusion(square.layout.T_global_place, square.travels, {0.7, -20.0}),
+                   -20.0);
 }
 
 TEST(LogExclusion, TheLessIsKnownOfTheDistanceTheLessItSays) {
   double last = -8.0;
   for (const double sigma_m : {0.05, 0.3, 0.6, 1.5, 5.0}) {
     const Square square(sigma_m);
-    const double log = log_exclusion(square.layout, square.travels, {});
+    const double log = log_exclusion(square.layout.T_global_place, square.travels, {});
     EXPECT_GT(log, last) << sigma_m;
     last = log;
   }
@@ -56,14 +57,14 @@ TEST(LogExclusion, IsTheProbabilityOfASquareForANormalDistribution) {
   const std::vector<TravelConstraint> travels = {{0, 1, step(0.5, 0, sigma_m)}};
   const auto cdf = [](double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); };
   const double near = (cdf(1.0) - cdf(-3.0)) * (cdf(2.0) - cdf(-2.0));
-  EXPECT_NEAR(log_exclusion(layout, travels, {1.0}), std::log(1.0 - near), 1e-9);
+  EXPECT_NEAR(log_exclusion(layout.T_global_place, travels, {1.0}), std::log(1.0 - near), 1e-9);
 }
 
 TEST(LogExclusion, GoesByTheSurestWay) {
   Square square(5.0);
-  const double by_the_way_around = log_exclusion(square.layout, square.travels, {});
+  const double by_the_way_around = log_exclusion(square.layout.T_global_place, square.travels, {});
   square.travels.push_back({0, 4, step(0, 0.2, 0.02)});
-  EXPECT_DOUBLE_EQ(log_exclusion(square.layout, square.travels, {}), -7.0);
+  EXPECT_DOUBLE_EQ(log_exclusion(square.layout.T_global_place, square.travels, {}), -7.0);
   EXPECT_GT(by_the_way_around, -0.1);
 }
 
@@ -73,8 +74,8 @@ TEST(LogExclusion, DoesNotDependOnTheFrame) {
   for (Pose2& pose : moved.T_global_place) {
     pose = Pose2(3.0, -7.0, 2.0) * pose;
   }
-  EXPECT_NEAR(log_exclusion(moved, square.travels, {}),
-              log_exclusion(square.layout, square.travels, {}), 1e-9);
+  EXPECT_NEAR(log_exclusion(moved.T_global_place, square.travels, {}),
+              log_exclusion(square.layout.T_global_place, square.travels, {}), 1e-9);
 }
 
 }  // namespace
