@@ -197,7 +197,8 @@ CarmenLine parse_carmen_line(std::string_view line) {
 
 void NoReturnFinder::add(float range_m) {
   constexpr float kShareOfLargest = 0.97F;
-  if (!std::isfinite(range_m) || range_m <= 0.0F) {
+  constexpr float kLongestReading_m = 10'000.0F;  // no laser on a robot reaches farther
+  if (!(range_m > 0.0F && range_m <= kLongestReading_m)) {
     return;
   }
   ++num_readings_;

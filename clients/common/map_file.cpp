@@ -14,7 +14,7 @@
 namespace cairn::clients {
 namespace {
 
-constexpr char kFormatVersion[] = "2";
+constexpr char kFormatVersion[] = "3";
 
 struct Finalize {
   void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }

@@ -16,6 +16,9 @@ std::vector<PosedScan> scans_worth_drawing(const std::vector<PosedScan>& traject
   constexpr double kTurned_rad = 0.1;
   std::vector<PosedScan> worth;
   for (const PosedScan& posed : trajectory) {
+    if (!posed.is_trusted) {
+      continue;
+    }
     if (!worth.empty()) {
       const Pose2& last = worth.back().T_global_robot;
       const Pose2& next = posed.T_global_robot;

@@ -1,5 +1,7 @@
 #include "storage/journal_codec.hpp"
 
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include <cairn_journal/scan_record_t.hpp>
@@ -11,7 +13,7 @@ namespace cairn::wire {
 
 template <>
 inline constexpr std::string_view kSignatureText<cairn_journal::scan_record_t> =
-    "q d[=3] d[=9] d[=3] d[=9] i i i d d[=3] d d i f[12] i f[14] i d[=3] i q[18] d[18][=3]";
+    "q d[=3] d[=9] d[=3] d[=9] i i i d d i d[=3] d d i f[14] i f[16] i d[=3] i q[20] d[20][=3]";
 
 }  // namespace cairn::wire
 
@@ -65,6 +67,8 @@ std::vector<std::uint8_t> to_row(const PerceivedScan& perceived) {
   record.is_degenerate = fix.is_degenerate ? 1 : 0;
   record.note = static_cast<int>(fix.note);
   record.score_share = fix.score;
+  record.through_walls_share = fix.through_walls.value_or(std::numeric_limits<double>::quiet_NaN());
+  record.is_trusted = perceived.is_trusted ? 1 : 0;
   put(scan.T_robot_laser, record.T_robot_laser_m_rad);
   record.max_range_m = scan.max_range_m;
   record.sweep_duration_s = scan.sweep_duration_s;
@@ -107,12 +111,15 @@ Result<PerceivedScan> scan_of_row(const std::vector<std::uint8_t>& row) {
   fix.is_matched = record->is_matched != 0;
   fix.is_degenerate = record->is_degenerate != 0;
   fix.score = record->score_share;
+  if (!std::isnan(record->through_walls_share)) {
+    fix.through_walls = record->through_walls_share;
+  }
   if (record->note < 0 || record->note > static_cast<int>(FixNote::kContradiction) ||
       !std::isfinite(fix.T_lpm_robot.x() + fix.T_lpm_robot.y() + fix.T_lpm_robot.theta())) {
     return malformed("a pose or a note out of range");
   }
   fix.note = static_cast<FixNote>(record->note);
-  PerceivedScan perceived{std::move(scan), fix, std::nullopt, {}};
+  PerceivedScan perceived{std::move(scan), fix, std::nullopt, {}, record->is_trusted != 0};
   if (record->has_odometry != 0) {
     perceived.T_odom_robot = pose_of(record->T_odom_robot_m_rad);
     if (const Status status = validate(OdometrySample{fix.time, *perceived.T_odom_robot});

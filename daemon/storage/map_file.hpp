@@ -25,7 +25,7 @@ namespace cairn {
 /// synchronisation). The same experience gives the same bytes.
 class MapFile {
  public:
-  static constexpr int kFormatVersion = 2;
+  static constexpr int kFormatVersion = 3;
 
   /// Opens or creates. kUnavailable where the path cannot be written, kMalformed where the file is
   /// no map file or of a newer format.

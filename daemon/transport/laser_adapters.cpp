@@ -43,12 +43,16 @@ std::vector<float> even_bearings(double first_rad, double step_rad, std::size_t 
   return bearings_rad;
 }
 
+/// No laser on a robot reaches farther: what says so is no reading.
+constexpr float kLongestReading_m = 10'000.0F;
+
+/// Where the scan has no reading at all, any limit will do.
 double longest_reading_m(const std::vector<float>& ranges_m) {
   float longest_m = 0.0F;
   for (const float range_m : ranges_m) {
-    longest_m = std::isfinite(range_m) ? std::max(longest_m, range_m) : longest_m;
+    longest_m = range_m <= kLongestReading_m ? std::max(longest_m, range_m) : longest_m;
   }
-  return static_cast<double>(longest_m);
+  return longest_m > 0.0F ? static_cast<double>(longest_m) : 1.0;
 }
 
 /// The one place where readings get their meaning.

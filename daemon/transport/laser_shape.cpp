@@ -13,12 +13,13 @@ LaserShape shape_of(const LaserScan& scan) {
   float right_rad = std::numeric_limits<float>::infinity();
   float left_rad = -right_rad;
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
-    if (!std::isnan(scan.ranges_m[i])) {
+    if (scan.ranges_m[i] >= LaserShapeWatch::kCover_m) {  // NaN is not
       right_rad = std::min(right_rad, scan.bearings_rad[i]);
       left_rad = std::max(left_rad, scan.bearings_rad[i]);
     }
   }
-  return {scan.ranges_m.size(), static_cast<double>(left_rad - right_rad)};
+  const bool sees = left_rad > right_rad;
+  return {scan.ranges_m.size(), sees ? static_cast<double>(left_rad - right_rad) : 0.0};
 }
 
 bool is_alike(const LaserShape& a, const LaserShape& b) {

@@ -11,8 +11,8 @@ namespace cairn {
 /// How a laser's scans are laid out.
 struct LaserShape {
   std::size_t beams = 0;
-  /// From the rightmost to the leftmost beam that states anything: a sensor of which one half has
-  /// gone blind sees less than its beams span.
+  /// From the rightmost to the leftmost beam that states anything, and something else than that
+  /// there is a cover before it: a sensor of which one half is blind sees less than its beams span.
   double view_rad = 0.0;
 };
 
@@ -24,6 +24,8 @@ struct LaserShape {
 /// whose scans are never quite alike are nothing to speak of.
 class LaserShapeWatch {
  public:
+  /// Returns from nearer are a cover on the laser.
+  static constexpr float kCover_m = 0.2F;
   /// Scans in a row that are unlike those before, after which it is said.
   static constexpr int kPersistence = 10;
   /// Alike are beams whose numbers differ by less than this factor,

@@ -26,6 +26,7 @@ struct TileIndex {
 struct PosedScan {
   std::shared_ptr<const LaserScan> scan;  ///< Shared and immutable: its address names it. Not null.
   Pose2 T_global_robot;
+  bool is_trusted = true;  ///< Whether maps may be drawn from it; one that is not is a pose only.
 };
 
 /// Tuning of the global map. In the configuration file: the object "global_map".

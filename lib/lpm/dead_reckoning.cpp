@@ -9,6 +9,10 @@ namespace {
 
 constexpr double kLeastTimeStep_s = 1.0;  // recorded stamps are not to be trusted below this
 constexpr double kLeastTwistStep_s = 1e-3;
+constexpr double kDetour_m =
+    1.0;  // less is the robot's swaying, and what samples and scans are apart
+constexpr double kDriven_m = 0.05;
+constexpr double kTurned_rad = 0.05;
 
 }  // namespace
 
@@ -41,6 +45,7 @@ void DeadReckoning::begin(const JoinedScan& joined) {
     is_possible_ = T_odom_step_->translation().norm() <= limits_.max_speed_m_per_s * possible_s &&
                    std::abs(T_odom_step_->theta()) <= limits_.max_turn_rate_rad_per_s * possible_s;
   }
+  detour_m_ = T_odom_step_ ? joined.odom_way_m - T_odom_step_->translation().norm() : 0.0;
   time_ = joined.scan.time;
   T_odom_robot_ = joined.T_odom_robot;
   take_off_lag();
@@ -77,7 +82,23 @@ Twist DeadReckoning::twist() const {
 }
 
 GaussianPose DeadReckoning::predicted() const {
-  return is_possible_ ? widened(model_.predict(*T_odom_step_)) : continued();
+  if (!is_possible_) {
+    return continued();
+  }
+  GaussianPose step = model_.predict(*T_odom_step_);
+  if (detour_m_ > kDetour_m) {
+    // The errors of the way around, in whichever direction it went.
+    const Matrix3d around = model_.predict(Pose2(detour_m_, 0.0, 0.0)).covariance;
+    const double variance_m2 = around(0, 0) + around(1, 1);
+    step.covariance += Eigen::Vector3d(variance_m2, variance_m2, around(2, 2)).asDiagonal();
+  }
+  return widened(step);
+}
+
+bool DeadReckoning::is_scan_frozen() const {
+  return is_scan_repeated_ && is_possible_ &&
+         (T_odom_step_->translation().norm() > kDriven_m ||
+          std::abs(T_odom_step_->theta()) > kTurned_rad);
 }
 
 GaussianPose DeadReckoning::widened(GaussianPose motion) const {
@@ -97,7 +118,9 @@ MotionFault DeadReckoning::end(const std::optional<GaussianPose>& matched) {
   if (!matched || !T_odom_step_) {
     model_.skip();
     watch_.interrupt();
-    return has_jumped() ? MotionFault::kTeleport : MotionFault::kNone;
+    return has_jumped()       ? MotionFault::kTeleport
+           : is_scan_frozen() ? MotionFault::kScanStalled
+                              : MotionFault::kNone;
   }
   if (is_possible_) {
     lag_.learn(matched->mean.theta());

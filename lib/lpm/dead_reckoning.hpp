@@ -38,6 +38,8 @@ class DeadReckoning {
   [[nodiscard]] bool has_jumped() const { return T_odom_step_ && !is_possible_; }
   /// Odometry tells the step, and the robot can have driven so.
   [[nodiscard]] bool has_odometry() const { return is_possible_; }
+  /// The robot has driven, by odometry, while the laser said the same to the last bit.
+  [[nodiscard]] bool is_scan_frozen() const;
   [[nodiscard]] double dt_s() const { return dt_s_; }
   /// By how much scans are stamped later than odometry, as far as turns have shown it. >= 0
   [[nodiscard]] double scan_lag_s() const { return lag_.lag_s(); }
@@ -63,6 +65,7 @@ class DeadReckoning {
   std::optional<Pose2> T_odom_robot_;
   // Of the step under way.
   double dt_s_ = 0.0;
+  double detour_m_ = 0.0;  // driven beyond what the step is long
   std::optional<Pose2> T_odom_step_;
   bool is_possible_ = false;
   bool is_scan_repeated_ = false;

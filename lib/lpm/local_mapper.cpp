@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include "base/check.hpp"
+#include "lpm/match_score.hpp"
 #include "lpm/scan_continuity.hpp"
 
 namespace cairn {
@@ -27,8 +28,11 @@ constexpr double kSlip = 9.0;               // squared Mahalanobis of fix and wi
 constexpr double kGoodScore = 0.85;         // a match that leaves no wish for another
 constexpr double kLeastOfUsualScore = 0.6;  // a sudden fall below it is a wrong match
 constexpr double kClearlyBetter = 0.05;     // in score
-constexpr double kGoesOn = 0.65;            // of returns: the surroundings are those of before
-constexpr double kRadPerTravel_m = 3.0;     // a turn of 1 rad renews the map as so much travel
+constexpr float kCover_m = 0.5F;            // a robot in so little room could not move
+constexpr double kCoveredShare = 0.8;
+constexpr int kAskEvery = 4;             // scans: what is behind walls changes slowly
+constexpr double kGoesOn = 0.65;         // of returns: the surroundings are those of before
+constexpr double kRadPerTravel_m = 3.0;  // a turn of 1 rad renews the map as so much travel
 
 Matrix3d diagonal(double sigma_x_m, double sigma_y_m, double sigma_rad) {
   return Eigen::Vector3d(sigma_x_m * sigma_x_m, sigma_y_m * sigma_y_m, sigma_rad * sigma_rad)
@@ -119,8 +123,16 @@ LocalFix LocalMapper::locate(const JoinedScan& joined) {
     const GaussianPose predicted = compounded({T_lpm_robot_, uncertainty_}, fix.motion);
     fix.T_lpm_robot = predicted.mean;
     fix.covariance = predicted.covariance;
-    if (matcher_.is_blocked()) {
+    blind_way_m_ += joined.odom_way_m;
+    if (is_sensor_blocked()) {
       fix.note = FixNote::kBlockedSensor;
+    } else if (blind_way_m_ > options_.map.memory_travel_m) {
+      // What the map holds would be forgotten by now: whatever looks like it may be another place.
+      // The new map is drawn around the robot; how it lies to the old one is what the motion says.
+      clear_map();
+      ++renewals_;
+      fix.note = FixNote::kFirst;
+      fix.covariance = diagonal(kLeastSigma_m, kLeastSigma_m, kLeastSigma_rad);
     } else {
       settle(best_match(predicted), predicted, &fix);
     }
@@ -129,9 +141,19 @@ LocalFix LocalMapper::locate(const JoinedScan& joined) {
     }
   }
   advance(joined, &fix);
+  ask_what_is_behind_walls(&fix);
   note_way(fix);
   correct_heading(&fix);
   return fix;
+}
+
+bool LocalMapper::is_sensor_blocked() const {
+  const std::vector<float>& ranges_m = beams_.ranges_m();
+  const auto near = std::count_if(ranges_m.begin(), ranges_m.end(),
+                                  [](float range_m) { return range_m < kCover_m; });
+  const auto beams = static_cast<double>(ranges_m.size() + beams_.free_beams().size());
+  return matcher_.is_blocked() || motion_.is_scan_frozen() ||
+         static_cast<double>(near) > kCoveredShare * beams;
 }
 
 ScanMatch LocalMapper::best_match(const GaussianPose& predicted) {
@@ -190,6 +212,7 @@ void LocalMapper::advance(const JoinedScan& joined, LocalFix* fix) {
   uncertainty_ = is_refused(fix->note) ? fix->covariance
                                        : diagonal(kLeastSigma_m, kLeastSigma_m, kLeastSigma_rad);
   refusals_ = is_refused(fix->note) ? refusals_ + 1 : 0;
+  blind_way_m_ = is_refused(fix->note) ? blind_way_m_ : 0.0;
 }
 
 /// Whether it is known how the robot came from where it was matched last, though no map says so.
@@ -206,6 +229,15 @@ void LocalMapper::note_way(const LocalFix& fix) {
   seen.returns.resize(beams_.returns().size());
   std::transform(beams_.returns().begin(), beams_.returns().end(), seen.returns.begin(),
                  [](const SurfacePoint& point) { return point.p; });
+}
+
+void LocalMapper::ask_what_is_behind_walls(LocalFix* fix) {
+  const bool is_calm = fix->fault == MotionFault::kNone && !is_refused(fix->note);
+  if (is_calm && ++unasked_ < kAskEvery) {
+    return;
+  }
+  unasked_ = 0;
+  fix->through_walls = share_through_walls(map_, beams_, fix->T_lpm_robot);
 }
 
 void LocalMapper::correct_heading(LocalFix* fix) {
@@ -260,6 +292,7 @@ void LocalMapper::start_anew() {
 }
 
 void LocalMapper::clear_map() {
+  blind_way_m_ = 0.0;
   map_.clear();
   T_lpm_drawn_.clear();
 }

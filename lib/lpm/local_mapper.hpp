@@ -24,7 +24,7 @@ enum class FixNote : std::uint8_t {
   kFirst,          ///< Nothing to match with: the first scan, or the first after a restart.
   kSlip,           ///< Matched, but odometry says otherwise: slip, push, or a stalled wheel.
   kTeleport,       ///< Matched; odometry jumped farther than the robot can drive.
-  kBlockedSensor,  ///< Refused: hardly any returns.
+  kBlockedSensor,  ///< Refused: hardly any returns, all from close by, or the same while driving.
   kNoOverlap,      ///< Refused: hardly any return falls where the map knows anything.
   kContradiction,  ///< Refused: the returns do not fall on the walls of the map.
 };
@@ -49,6 +49,10 @@ struct LocalFix {
   bool is_matched = false;
   bool is_degenerate = false;  ///< The scan does not fix every direction (a corridor, few returns).
   double score = 0.0;  ///< Share of the returns over known cells that fall on walls, [0, 1].
+  /// Share of the returns that lie behind walls of the map from where the scan was matched: as no
+  /// beam goes through a wall, the robot is elsewhere, or a wall is gone. Asked of every fourth
+  /// scan and of those that odometry disagrees with; nothing: not asked.
+  std::optional<double> through_walls;
   FixNote note = FixNote::kFirst;
   /// Why odometry and scans disagree, over this step and those before it.
   MotionFault fault = MotionFault::kNone;
@@ -103,9 +107,11 @@ class LocalMapper {
                bool takes_up = true);
 
  private:
+  [[nodiscard]] bool is_sensor_blocked() const;
   [[nodiscard]] ScanMatch best_match(const GaussianPose& predicted);
   void settle(const ScanMatch& match, const GaussianPose& predicted, LocalFix* fix);
   void advance(const JoinedScan& joined, LocalFix* fix);
+  void ask_what_is_behind_walls(LocalFix* fix);
   void correct_heading(LocalFix* fix);
   void ask_walls();
   void note_way(const LocalFix& fix);
@@ -134,6 +140,8 @@ class LocalMapper {
   int laser_ = 0;              // of the scan taken last
   double travel_m_ = 0.0;
   int refusals_ = 0;
+  double blind_way_m_ = 0.0;  // by odometry, since the last match
+  int unasked_ = 0;           // scans in a row, of what is behind walls
   std::int64_t restarts_ = 0;
   std::int64_t renewals_ = 0;
 };

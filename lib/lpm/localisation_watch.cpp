@@ -81,7 +81,9 @@ void LocalisationWatch::observe(const LocalFix& fix, bool has_odometry) {
 void LocalisationWatch::doubt(const LocalFix& fix) {
   const bool was_moved = fix.note == FixNote::kContradiction || fix.fault == MotionFault::kBump ||
                          fix.fault == MotionFault::kCarried;
-  const bool is_worse = fix.score < usual_score_ - options_.doubt_drop;
+  through_walls_ = fix.through_walls.value_or(through_walls_);
+  const double worth = fix.score - through_walls_;
+  const bool is_worse = worth < usual_score_ - options_.doubt_drop;
   if (was_moved && is_worse) {
     is_doubted_ = true;
   }
@@ -89,7 +91,7 @@ void LocalisationWatch::doubt(const LocalFix& fix) {
   is_doubted_ = is_doubted_ && trusted_scans_ < options_.patience_scans;
   is_doubtful_ = is_doubted_ && fix.is_matched;
   if (fix.is_matched && !is_doubted_) {
-    usual_score_ += (usual_score_ > 0.0 ? kUsualGain : 1.0) * (fix.score - usual_score_);
+    usual_score_ += (usual_score_ > 0.0 ? kUsualGain : 1.0) * (worth - usual_score_);
   }
 }
 
@@ -201,6 +203,7 @@ void LocalisationWatch::started_new_map() {
   matched_scans_ = 0;
   good_scans_ = 0;
   usual_score_ = 0.0;
+  through_walls_ = 0.0;
   is_doubted_ = false;
   is_doubtful_ = false;
   health_.error_m = 0.0;

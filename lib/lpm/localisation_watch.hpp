@@ -79,15 +79,16 @@ class LocalisationWatch {
   GaussianPose since_reliable_;  // motion
   double reliable_m2_ = 0.0;     // variance of the last reliable fix
   bool is_lost_ = false;
-  double usual_score_ = 0.0;  // of matched scans; 0 before the first
-  bool is_doubted_ = false;   // that the robot is where the map has it
-  bool is_doubtful_ = false;  // the last fix, for that
-  int trusted_scans_ = 0;     // in a row, while it is doubted
-  bool is_map_new_ = false;   // and the robot not yet found in it
-  int refused_scans_ = 0;     // in a row
-  int unfitting_scans_ = 0;   // in a row, blocked ones aside
-  int matched_scans_ = 0;     // in a row
-  int guessed_scans_ = 0;     // in a row, without odometry
+  double through_walls_ = 0.0;  // as told last
+  double usual_score_ = 0.0;    // of matched scans, less what is behind walls; 0 before the first
+  bool is_doubted_ = false;     // that the robot is where the map has it
+  bool is_doubtful_ = false;    // the last fix, for that
+  int trusted_scans_ = 0;       // in a row, while it is doubted
+  bool is_map_new_ = false;     // and the robot not yet found in it
+  int refused_scans_ = 0;       // in a row
+  int unfitting_scans_ = 0;     // in a row, blocked ones aside
+  int matched_scans_ = 0;       // in a row
+  int guessed_scans_ = 0;       // in a row, without odometry
   std::array<int, LocalisationHealth::kFaults> calm_scans_{};  // in a row, without that fault
   int good_scans_ = 0;                                         // in a row, with no trouble at all
 };

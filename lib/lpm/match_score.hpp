@@ -16,4 +16,9 @@ void judge(const ScrollingMap& map,
            double on_wall_m,
            ScanMatch* match);
 
+/// Share of the returns that lie behind walls of the map which the beam would have met, [0, 1].
+[[nodiscard]] double share_through_walls(const ScrollingMap& map,
+                                         const ScanBeams& beams,
+                                         const Pose2& T_lpm_robot);
+
 }  // namespace cairn

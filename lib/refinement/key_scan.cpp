@@ -5,7 +5,9 @@
 
 namespace cairn {
 
-void KeyScanChooser::add(const std::shared_ptr<const LaserScan>& scan, const GaussianPose& motion) {
+void KeyScanChooser::add(const std::shared_ptr<const LaserScan>& scan,
+                         const GaussianPose& motion,
+                         bool is_trusted) {
   const std::size_t number = scans_++;
   if (number > 0) {
     const double step_m = motion.mean.translation().norm();
@@ -13,7 +15,7 @@ void KeyScanChooser::add(const std::shared_ptr<const LaserScan>& scan, const Gau
     travel_m_ += step_m;
     driven_m_ += step_m;
     turned_rad_ += std::abs(motion.mean.theta());
-    if (driven_m_ < kEvery_m && turned_rad_ < kEvery_rad) {
+    if (!is_trusted || (driven_m_ < kEvery_m && turned_rad_ < kEvery_rad)) {
       return;
     }
   }

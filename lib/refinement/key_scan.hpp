@@ -27,7 +27,10 @@ class KeyScanChooser {
   static constexpr double kEvery_rad = 0.8;  ///< or so much turning.
 
   /// @param motion since the scan before; not looked at for the first scan
-  void add(const std::shared_ptr<const LaserScan>& scan, const GaussianPose& motion);
+  /// @param is_trusted whether it may stand for others; the first one always does
+  void add(const std::shared_ptr<const LaserScan>& scan,
+           const GaussianPose& motion,
+           bool is_trusted = true);
 
   [[nodiscard]] const KeyScans& key_scans() const { return key_scans_; }
 

@@ -47,7 +47,9 @@ Status validate(const LaserScan& scan) {
     return invalid("all beams have the same bearing");
   }
   if (!(scan.max_range_m > 0.0 && scan.max_range_m <= kMaxExtent_m)) {
-    return invalid("max range must be > 0 m, is " + std::to_string(scan.max_range_m));
+    return invalid("max range must be > 0 and at most " +
+                   std::to_string(std::llround(kMaxExtent_m)) + " m, is " +
+                   std::to_string(scan.max_range_m));
   }
   if (std::any_of(scan.ranges_m.begin(), scan.ranges_m.end(),
                   [](float range) { return range <= 0.0F; })) {

@@ -16,6 +16,8 @@ namespace {
 constexpr std::size_t kMaxWaitingScans = 1'000;
 constexpr std::size_t kMaxSamples = 20'000;
 
+constexpr double kLongestStep_m = 2.0;  // from sample to sample
+
 /// On the line between two poses, or beyond it.
 Pose2 pose_between(const OdometrySample& a, const OdometrySample& b, TimePoint time) {
   const double span_s = seconds_between(a.time, b.time);
@@ -58,6 +60,11 @@ void ScanJoiner::add(const OdometrySample& sample) {
     count_clock_step(sample.time);
     release_all();
     forget_odometry();
+  }
+  if (!odometry_.empty()) {
+    const Pose2& before = odometry_.back().T_odom_robot;
+    way_m_ +=
+        std::min((sample.T_odom_robot.translation() - before.translation()).norm(), kLongestStep_m);
   }
   odometry_.push_back(sample);
   newest_odometry_ = std::max(newest_odometry_.value_or(sample.time), sample.time);
@@ -143,7 +150,7 @@ void ScanJoiner::release_front(std::optional<Pose2> T_odom_robot) {
   if (!T_odom_robot) {
     ++counters_.scans_without_odometry;
   }
-  ready_.push_back({std::move(waiting_.front().scan), T_odom_robot});
+  ready_.push_back({std::move(waiting_.front().scan), T_odom_robot, std::exchange(way_m_, 0.0)});
   waiting_.pop_front();
 }
 

@@ -15,6 +15,9 @@ namespace cairn {
 struct JoinedScan {
   LaserScan scan;
   std::optional<Pose2> T_odom_robot;  ///< At scan.time; none where odometry says nothing about it.
+  /// How far odometry went, back and forth, since the scan before: by arrival, so about. A step
+  /// from sample to sample counts for 2 m at most, as what is longer is no driving.
+  double odom_way_m = 0.0;
 };
 
 /// How patiently scans and odometry are brought together. In the configuration file: "joiner".
@@ -119,6 +122,7 @@ class ScanJoiner {
   JoinerCounters counters_;
   std::deque<OdometrySample> odometry_;  // in the order of arrival
   std::uint64_t first_arrival_ = 0;      // arrival number of odometry_.front()
+  double way_m_ = 0.0;                   // of odometry since the last scan was released
   std::uint64_t cursor_ = 0;             // samples before it belong to earlier scans
   std::deque<Waiting> waiting_;
   std::deque<JoinedScan> ready_;

@@ -25,7 +25,7 @@ bool is_way_unknown(const GaussianPose& motion) {
 }
 
 void Experience::add(PerceivedScan scan) {
-  key_scans_.add(scan.scan, scan.fix.motion);
+  key_scans_.add(scan.scan, scan.fix.motion, scan.is_trusted);
   scans_.push_back(std::move(scan));
 }
 

@@ -23,6 +23,9 @@ struct PerceivedScan {
   /// that scan; the last one is of this scan itself. Poses between scans are interpolated along
   /// them. Empty where one of the two scans has no odometry.
   std::vector<OdometrySample> between;
+  /// Whether the local map may take it up: a scan of a lost robot, or of a blocked sensor, is
+  /// remembered, but no map is drawn from it.
+  bool is_trusted = true;
 };
 
 /// Whether a step between two scans says next to nothing of where the robot went: on the way from a

@@ -58,7 +58,8 @@ Updates MappingService::Pipeline::perceive_joined() {
     std::vector<OdometrySample> between =
         between_scans_.take(joined->scan.time, joined->T_odom_robot);
     PerceivedScan perceived{std::make_shared<const LaserScan>(std::move(joined->scan)), fix,
-                            joined->T_odom_robot, std::move(between)};
+                            joined->T_odom_robot, std::move(between),
+                            watch_.may_map() && fix.note != FixNote::kBlockedSensor};
     since_anchor_ = compounded(since_anchor_, fix.motion);
     relocalise(perceived, &updates);
     experience_.add(perceived);

@@ -117,9 +117,11 @@ std::vector<PosedScan> MappingService::Pipeline::trajectory() const {
   std::vector<PosedScan> posed;
   posed.reserve(scans.size());
   for (std::size_t i = 0; i < scans.size(); ++i) {
-    posed.push_back({scans[i].scan, i < metrical_.trajectory.size()
-                                        ? metrical_.trajectory[i]
-                                        : metrical_.T_global_lpm * scans[i].fix.T_lpm_robot});
+    posed.push_back({scans[i].scan,
+                     i < metrical_.trajectory.size()
+                         ? metrical_.trajectory[i]
+                         : metrical_.T_global_lpm * scans[i].fix.T_lpm_robot,
+                     scans[i].is_trusted});
   }
   return posed;
 }

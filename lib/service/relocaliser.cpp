@@ -30,6 +30,9 @@ GlobalMapOptions drawing(const RelocalisationOptions& options) {
 std::vector<PosedScan> thinned(const std::vector<PosedScan>& seen, double every_m) {
   std::vector<PosedScan> chosen;
   for (const PosedScan& scan : seen) {
+    if (!scan.is_trusted) {
+      continue;
+    }
     const bool is_due =
         chosen.empty() ||
         (scan.T_global_robot.translation() - chosen.back().T_global_robot.translation()).norm() >=

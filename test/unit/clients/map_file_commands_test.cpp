@@ -293,12 +293,12 @@ TEST_F(MapFileCommands, AFileThatIsNoMapIsBadData) {
   run_sql(output("other.db"), "CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT)");
   run_sql(output("future.db"),
           "CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT);"
-          "INSERT INTO meta VALUES ('application', 'cairn'), ('format_version', '3')");
+          "INSERT INTO meta VALUES ('application', 'cairn'), ('format_version', '4')");
 
   for (const auto& [name, reason] :
        std::map<std::string, std::string>{{"notes.txt", "is no cairn map"},
                                           {"other.db", "is no cairn map"},
-                                          {"future.db", "format 3; this program reads format 2"},
+                                          {"future.db", "format 4; this program reads format 3"},
                                           {"missing.db", "there is no such file"},
                                           {"", "expected a file, got a folder"}}) {
     const Outcome status = run({"status", output(name.c_str())});

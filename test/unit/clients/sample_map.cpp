@@ -332,7 +332,7 @@ void write_sample_map(const std::filesystem::path& path) {
                 "CREATE TABLE document (what INTEGER PRIMARY KEY, revision INTEGER NOT NULL,"
                 "                       bytes BLOB NOT NULL);"
                 "CREATE TABLE visit (id INTEGER PRIMARY KEY);"
-                "INSERT INTO meta VALUES ('application', 'cairn'), ('format_version', '2'),"
+                "INSERT INTO meta VALUES ('application', 'cairn'), ('format_version', '3'),"
                 "                        ('map_id', '7');"
                 "INSERT INTO visit VALUES (1), (2), (3);");
   sqlite3* database = nullptr;

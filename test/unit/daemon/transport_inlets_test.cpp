@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
@@ -142,6 +143,36 @@ TEST_F(InletsTest, ALaserThatHasGoneBlindOnOneSideIsToldOf) {
     dispatch("LASER", scan);
   }
   EXPECT_THAT(inlets_.take_remarks(), ElementsAre(HasSubstr("181 beams over 90 degrees")));
+}
+
+TEST_F(InletsTest, ALaserWithACoverOnOneHalfIsToldOf) {
+  cairn_lcm::laser_scan_t scan = scan_of_shape(181, 180.0);
+  for (int i = 0; i < 20; ++i) {
+    dispatch("LASER", scan);
+  }
+  std::fill(scan.ranges_m.begin() + 91, scan.ranges_m.end(), 0.12F);
+  for (int i = 0; i < 20; ++i) {
+    dispatch("LASER", scan);
+  }
+  EXPECT_THAT(inlets_.take_remarks(), ElementsAre(HasSubstr("see what covers it")));
+}
+
+TEST_F(InletsTest, OneAbsurdReadingIsNoReturnAndTheScanStays) {
+  auto scan = scan_of_shape(181, 180.0);
+  scan.max_range_m = 0.0;
+  scan.ranges_m[7] = 1e30F;
+  EXPECT_EQ(dispatch("LASER", scan), Outcome::kAccepted);
+  ASSERT_THAT(scans_, SizeIs(1));
+  EXPECT_TRUE(std::isinf(scans_.front().ranges_m[7]));
+  EXPECT_NEAR(scans_.front().max_range_m, 2.0, 0.1);
+}
+
+TEST_F(InletsTest, AScanWithoutAnyReadingSaysSo) {
+  auto scan = scan_of_shape(181, 180.0);
+  scan.max_range_m = 0.0;
+  std::fill(scan.ranges_m.begin(), scan.ranges_m.end(), 0.0F);
+  EXPECT_EQ(dispatch("LASER", scan), Outcome::kRefused);
+  EXPECT_THAT(inlets_.take_remarks(), ElementsAre(HasSubstr("no range says anything")));
 }
 
 TEST_F(InletsTest, ASpinningLaserWhoseScansAreNeverAlikeIsNoNews) {

@@ -1,6 +1,8 @@
 // What the service makes of sensors that fail, stop or lie: it says why, and keeps its map.
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 #include <gmock/gmock.h>
@@ -34,6 +36,15 @@ void with_no_return(Readings* readings) {
 }
 void with_a_hand_before_it(Readings* readings) {
   with_ranges(0.05F, readings);
+}
+void with_a_bag_over_it(Readings* readings) {
+  static constexpr std::array<float, 4> kNoise_m = {-0.01F, 0.0F, 0.005F, 0.01F};
+  for (LaserScan& scan : readings->scans) {
+    for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+      const auto moment = static_cast<std::size_t>(utime_of(scan.time) / 100'000);
+      scan.ranges_m[i] = 0.3F + kNoise_m[(moment * 7 + i * 3 + i * moment) % kNoise_m.size()];
+    }
+  }
 }
 
 class BadInput : public testing::Test {
@@ -108,6 +119,45 @@ TEST_F(BadInput, ABlockedSensor) {
   drive_.go(300, with_a_hand_before_it);
   EXPECT_THAT(drive_.reasons(), Contains(HasSubstr("is the laser covered")));
   EXPECT_EQ(drive_.service().local_map().cells(), cells);
+  expect_recovered();
+}
+
+TEST_F(BadInput, ABagOverTheSensor) {
+  const auto cells = drive_.service().local_map().cells();
+  drive_.go(300, with_a_bag_over_it);
+  EXPECT_THAT(drive_.reasons(), Contains(HasSubstr("is the laser covered")));
+  EXPECT_EQ(drive_.service().local_map().cells(), cells);
+  expect_recovered();
+}
+
+TEST_F(BadInput, NoMapIsDrawnFromScansOfABlockedSensor) {
+  drive_.go(30, with_no_return);
+  drive_.go(30);
+  const std::vector<PosedScan> trajectory = drive_.service().state()->trajectory;
+  int untrusted = 0;
+  for (const PosedScan& posed : trajectory) {
+    const bool is_blind = std::all_of(posed.scan->ranges_m.begin(), posed.scan->ranges_m.end(),
+                                      [](float range_m) { return std::isinf(range_m); });
+    EXPECT_EQ(posed.is_trusted, !is_blind);
+    untrusted += posed.is_trusted ? 0 : 1;
+  }
+  EXPECT_EQ(untrusted, 30);
+}
+
+// The wheels go on in circles; whether the robot is still in this room, or in one that looks the
+// same, nobody can say. What comes after is a map of its own, and the way to it is unsure.
+TEST_F(BadInput, AfterALongBlindWayNothingIsMatchedWithWhatWasSeenBefore) {
+  const std::size_t before = drive_.perceived().size();
+  drive_.go(100, without_scans);
+  drive_.go(1);
+  EXPECT_TRUE(drive_.perceived()[before].fix.is_matched) << "a short way";
+  const double short_way_m2 = drive_.perceived()[before].fix.motion.covariance(0, 0);
+  const std::size_t later = drive_.perceived().size();
+  drive_.go(1000, without_scans);
+  drive_.go(1);
+  const LocalFix& fix = drive_.perceived()[later].fix;
+  EXPECT_FALSE(fix.is_matched);
+  EXPECT_GT(fix.motion.covariance(0, 0), 100.0 * short_way_m2);
   expect_recovered();
 }
 

@@ -97,6 +97,47 @@ TEST(KidnapIntoTheUnknown, IsNeverTakenForAReturn) {
   EXPECT_THAT(drive.relocalised(), IsEmpty());
 }
 
+/// Of robots that are carried from the furnished room to the other one, or back.
+struct KidnapTally {
+  int kidnaps = 0;
+  int noticed = 0;
+};
+
+/// Turned by eight angles that are not the same for any two seeds.
+KidnapTally kidnaps_noticed(unsigned seed, int within_scans) {
+  const Vector2d middle(60.0, 7.0);
+  KidnapTally tally;
+  for (int eighth = 0; eighth < 8; ++eighth) {
+    for (const bool is_back : {false, true}) {
+      const double turn_rad = eighth * kPi / 4.0 + 0.1 * (seed - 1);
+      const Pose2 there(middle.x() + 0.4, middle.y() - 0.3, turn_rad);
+      SimulatedDrive drive(with_another_room(middle), seed);
+      drive.be_carried_by(is_back ? there : Pose2());
+      drive.go(100 + 13 * static_cast<int>(seed));
+      EXPECT_EQ(drive.health().times_lost, 0) << "before it was carried";
+      drive.be_carried_by(is_back ? Pose2() : there);
+      drive.go(within_scans);
+      ++tally.kidnaps;
+      tally.noticed += drive.health().times_lost > 0 ? 1 : 0;
+    }
+  }
+  return tally;
+}
+
+// Not all: where most of the beams end on walls of the other room, and few go through one.
+TEST(KidnapToAnotherRoom, IsMostlyNoticedHoweverTheRobotIsTurned) {
+  constexpr int kWithinScans = 40;
+  KidnapTally all;
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const KidnapTally tally = kidnaps_noticed(seed, kWithinScans);
+    all.kidnaps += tally.kidnaps;
+    all.noticed += tally.noticed;
+  }
+  RecordProperty("kidnaps", all.kidnaps);
+  RecordProperty("noticed", all.noticed);
+  EXPECT_GE(all.noticed, all.kidnaps * 85 / 100);
+}
+
 TEST_F(Kidnap, IsRecalledAsItWas) {
   kidnap(&drive_);
   drive_.go(60);

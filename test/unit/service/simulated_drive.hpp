@@ -24,8 +24,8 @@ class SimulatedDrive {
  public:
   using Disturbance = std::function<void(Readings*)>;
 
-  explicit SimulatedDrive(std::vector<Wall> walls = furnished_room())
-      : walls_(std::move(walls)), laser_(walls_) {}
+  explicit SimulatedDrive(std::vector<Wall> walls = furnished_room(), unsigned seed = 1)
+      : walls_(std::move(walls)), laser_(walls_, seed) {}
 
   /// One laser in the middle that looks ahead, unless told otherwise.
   void mount_lasers(std::vector<Pose2> T_robot_lasers) {
