@@ -101,7 +101,7 @@ void MappingService::Pipeline::relocalise(const PerceivedScan& scan, Updates* up
 void MappingService::Pipeline::take_leave_of_map(LocalFix* fix, Updates* updates) {
   close_open_visits(updates);
   enter(Stage::kLocalMapping);
-  relocaliser_.start(trajectory());
+  relocaliser_.start(trajectory(metrical_));
   const double way_m = options_.localisation.unknown_way_m;
   const double turn_rad = options_.localisation.unknown_turn_rad;
   fix->motion.covariance.diagonal() += Eigen::Vector3d(way_m, way_m, turn_rad).cwiseAbs2();
