@@ -172,8 +172,8 @@ Result<std::shared_ptr<const MapState>> MappingService::Pipeline::state_of(
   const Result<MetricalMap> metrical =
       metrical_map(laid_out.map, experience_, matcher_, options_.layout);
   if (!metrical) {
-    return Error{ErrorCode::kUnavailable, "the layout of hypothesis " + std::to_string(hypothesis) +
-                                              ": " + metrical.error().message};
+    return Error{metrical.error().code, "the layout of hypothesis " + std::to_string(hypothesis) +
+                                            ": " + metrical.error().message};
   }
   std::shared_ptr<MapState> state = picture_of(*metrical);
   tell_map(laid_out, *metrical, state.get());
