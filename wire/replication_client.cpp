@@ -237,16 +237,21 @@ GridMirror::Changes GridMirror::take_changes() {
   return std::exchange(changes_, {});
 }
 
-DocumentFetch::DocumentFetch(std::int32_t what, std::int64_t map_id, ReplicationRequests requests)
+DocumentFetch::DocumentFetch(std::int32_t what,
+                             std::int64_t map_id,
+                             ReplicationRequests requests,
+                             std::int64_t hypothesis_id)
     : what_(what),
       map_id_(map_id),
+      hypothesis_id_(hypothesis_id),
       requests_(std::move(requests)),
       asked_us_(kNever),
       wait_us_(kFirstWaitUs) {}
 
 void DocumentFetch::on_chunk(std::int64_t now_us, const cairn_lcm::snapshot_chunk_t& chunk) {
-  const bool is_ours =
-      state_ == State::kAsking && chunk.what == what_ && (map_id_ == 0 || chunk.map_id == map_id_);
+  const bool is_ours = state_ == State::kAsking && chunk.what == what_ &&
+                       chunk.hypothesis_id == hypothesis_id_ &&
+                       (map_id_ == 0 || chunk.map_id == map_id_);
   if (!is_ours) {
     return;
   }
@@ -284,6 +289,7 @@ DocumentFetch::State DocumentFetch::tick(std::int64_t now_us, std::int64_t utime
   const auto header = header_of(requests_, utime, ++last_request_id_, boot_.boot_id());
   cairn_lcm::snapshot_request_t request = snapshot_request(header, what_, assembler_);
   request.map_id = map_id_;
+  request.hypothesis_id = hypothesis_id_;
   requests_.send_snapshot_request(request);
   asked_us_ = now_us;
   wait_us_ = longer(wait_us_);

@@ -95,9 +95,15 @@ class DocumentFetch {
   enum class State { kAsking, kDone, kFailed };
 
   /// @param map_id 0: of whatever map there is
-  DocumentFetch(std::int32_t what, std::int64_t map_id, ReplicationRequests requests);
+  /// @param hypothesis_id of HYPOTHESIS_MAP; else 0
+  DocumentFetch(std::int32_t what,
+                std::int64_t map_id,
+                ReplicationRequests requests,
+                std::int64_t hypothesis_id = 0);
 
   void on_chunk(std::int64_t now_us, const cairn_lcm::snapshot_chunk_t& chunk);
+  /// The daemon said that it works on it: what was asked so far does not count.
+  void accepted() { unanswered_ = 0; }
   /// Asks again where needed; about 20 times a second.
   State tick(std::int64_t now_us, std::int64_t utime);
 
@@ -110,6 +116,7 @@ class DocumentFetch {
  private:
   std::int32_t what_;
   std::int64_t map_id_;
+  std::int64_t hypothesis_id_;
   ReplicationRequests requests_;
   BootFilter boot_;
   SnapshotAssembler assembler_;

@@ -14,6 +14,7 @@ namespace {
 /// Bytes of a delta or chunk beside its data, on the wire.
 constexpr std::int64_t kOverheadBytes = 150;
 constexpr std::size_t kSnapshotsPerKind = 4;
+constexpr std::int32_t kHypothesisMap = cairn_lcm::snapshot_request_t::HYPOTHESIS_MAP;
 
 bool is_same_tiling(const ReplicatedGrid& grid, const GridChange& change) {
   return grid.map_id == change.map_id && grid.cell_m == change.cell_m &&
@@ -48,8 +49,21 @@ ReplicationServer::ReplicationServer(std::int64_t boot_id,
 
 void ReplicationServer::documents_changed() {
   for (auto& [id, snapshot] : snapshots_) {
-    snapshot.is_outdated = snapshot.is_outdated || sources_.count(snapshot.what) != 0;
+    const std::int32_t what = snapshot.subject.what;
+    snapshot.is_outdated =
+        snapshot.is_outdated || what == kHypothesisMap || sources_.count(what) != 0;
   }
+}
+
+void ReplicationServer::offer_hypothesis_map(std::int64_t now_us,
+                                             std::int64_t hypothesis_id,
+                                             Document document) {
+  add_snapshot(now_us, {kHypothesisMap, hypothesis_id}, std::move(document));
+}
+
+ReplicationServer::Subject ReplicationServer::subject_of(
+    const cairn_lcm::snapshot_request_t& request) {
+  return {request.what, request.what == kHypothesisMap ? request.hypothesis_id : 0};
 }
 
 void ReplicationServer::serve(std::int32_t what, Source source) {
@@ -119,8 +133,8 @@ void ReplicationServer::add_delta(std::int64_t utime,
 bool ReplicationServer::on_request(std::int64_t now_us,
                                    const cairn_lcm::snapshot_request_t& request) {
   const auto known = snapshots_.find(request.snapshot_id);
-  if (known == snapshots_.end() || known->second.what != request.what) {
-    return offer_snapshot(now_us, request.what, -1);
+  if (known == snapshots_.end() || known->second.subject != subject_of(request)) {
+    return offer_snapshot(now_us, subject_of(request), -1);
   }
   known->second.asked_us = now_us;
   for (const std::int32_t chunk : request.missing) {
@@ -141,7 +155,7 @@ bool ReplicationServer::on_request(std::int64_t now_us, const cairn_lcm::delta_r
     return true;
   }
   if (state.deltas.empty() || request.have_revision < state.deltas.front().prev_revision) {
-    return offer_snapshot(now_us, request.what, request.have_revision);
+    return offer_snapshot(now_us, {request.what}, request.have_revision);
   }
   for (const cairn_lcm::map_delta_t& delta : state.deltas) {
     if (delta.revision > request.have_revision) {
@@ -154,23 +168,24 @@ bool ReplicationServer::on_request(std::int64_t now_us, const cairn_lcm::delta_r
 // Several who ask at about the same time share one snapshot; who comes late gets its beginning
 // once more.
 bool ReplicationServer::offer_snapshot(std::int64_t now_us,
-                                       std::int32_t what,
+                                       Subject subject,
                                        std::int64_t newer_than) {
+  const std::int64_t window_us =
+      subject.what == kHypothesisMap ? options_.kept_drawing_us : options_.join_window_us;
   for (auto known = snapshots_.rbegin(); known != snapshots_.rend(); ++known) {
     Snapshot& snapshot = known->second;
-    if (snapshot.what == what && !snapshot.is_outdated &&
-        now_us - snapshot.made_us < options_.join_window_us &&
-        snapshot.document.revision > newer_than) {
+    if (snapshot.subject == subject && !snapshot.is_outdated &&
+        now_us - snapshot.made_us < window_us && snapshot.document.revision > newer_than) {
       snapshot.asked_us = now_us;
       queue_all_chunks(known->first, snapshot);
       return true;
     }
   }
-  std::optional<Document> document = make_document(what);
+  std::optional<Document> document = make_document(subject.what);
   if (!document || document->bytes.empty()) {
     return false;
   }
-  add_snapshot(now_us, what, *std::move(document));
+  add_snapshot(now_us, subject, *std::move(document));
   return true;
 }
 
@@ -183,8 +198,8 @@ std::optional<Document> ReplicationServer::make_document(std::int32_t what) cons
   return source == sources_.end() ? std::nullopt : source->second();
 }
 
-void ReplicationServer::add_snapshot(std::int64_t now_us, std::int32_t what, Document document) {
-  Snapshot snapshot{what, std::move(document), 0, 0, now_us, now_us, false};
+void ReplicationServer::add_snapshot(std::int64_t now_us, Subject subject, Document document) {
+  Snapshot snapshot{subject, std::move(document), 0, 0, now_us, now_us, false};
   const auto size = static_cast<std::int64_t>(snapshot.document.bytes.size());
   snapshot.crc32 = crc32_of(snapshot.document.bytes);
   snapshot.num_chunks =
@@ -192,7 +207,9 @@ void ReplicationServer::add_snapshot(std::int64_t now_us, std::int32_t what, Doc
   const std::int64_t id = ++last_snapshot_id_;
   queue_all_chunks(id, snapshot);
   snapshots_.emplace(id, std::move(snapshot));
-  const auto is_same_kind = [what](const auto& entry) { return entry.second.what == what; };
+  const auto is_same_kind = [subject](const auto& entry) {
+    return entry.second.subject.what == subject.what;
+  };
   if (std::count_if(snapshots_.begin(), snapshots_.end(), is_same_kind) >
       static_cast<std::ptrdiff_t>(kSnapshotsPerKind)) {
     snapshots_.erase(std::find_if(snapshots_.begin(), snapshots_.end(), is_same_kind));
@@ -266,7 +283,8 @@ std::int64_t ReplicationServer::send_next_chunk(std::int64_t utime) {
   cairn_lcm::snapshot_chunk_t chunk{};
   chunk.utime = utime;
   chunk.boot_id = boot_id_;
-  chunk.what = snapshot.what;
+  chunk.what = snapshot.subject.what;
+  chunk.hypothesis_id = snapshot.subject.hypothesis_id;
   chunk.map_id = snapshot.document.map_id;
   chunk.snapshot_id = due.snapshot_id;
   chunk.revision = snapshot.document.revision;

@@ -26,6 +26,7 @@ struct ReplicationServerOptions {
   std::size_t most_deltas_at_once = 128;       ///< A larger change travels by snapshot.
   std::int64_t kept_snapshot_us = 10'000'000;  ///< After it was last asked for.
   std::int64_t join_window_us = 500'000;       ///< Who asks within it gets the same snapshot.
+  std::int64_t kept_drawing_us = 5'000'000;    ///< The same for maps that are drawn on request.
   std::int64_t reminder_us = 1'000'000;        ///< Of silence, then the newest delta is repeated.
 };
 
@@ -71,6 +72,9 @@ class ReplicationServer {
   void serve(std::int32_t what, Source source);
   /// These documents have changed: who asks from now on gets new ones, and shares none made before.
   void documents_changed();
+  /// The map of one hypothesis (HYPOTHESIS_MAP), drawn on request: sends it to all who listen, and
+  /// to who asks for it from now on, as long as it is young and documents_changed() is not called.
+  void offer_hypothesis_map(std::int64_t now_us, std::int64_t hypothesis_id, Document document);
   /// Takes changed tiles over and queues their deltas. Another map_id, cell size or tile size than
   /// before starts the grid afresh; the revision goes on. Tiles that are as before cost nothing.
   /// @pre every tile has tile_cells^2 cells; others are left out
@@ -94,8 +98,14 @@ class ReplicationServer {
     std::deque<cairn_lcm::map_delta_t> deltas;  ///< The newest, in the order of revisions.
     std::int64_t last_sent_us = 0;
   };
-  struct Snapshot {
+  /// What a snapshot is of.
+  struct Subject {
     std::int32_t what = 0;
+    std::int64_t hypothesis_id = 0;  ///< Of HYPOTHESIS_MAP; else 0.
+    friend bool operator==(const Subject&, const Subject&) = default;
+  };
+  struct Snapshot {
+    Subject subject;
     Document document;
     std::int32_t crc32 = 0;
     std::int32_t num_chunks = 0;
@@ -116,8 +126,9 @@ class ReplicationServer {
   };
 
   [[nodiscard]] std::optional<Document> make_document(std::int32_t what) const;
-  bool offer_snapshot(std::int64_t now_us, std::int32_t what, std::int64_t newer_than);
-  void add_snapshot(std::int64_t now_us, std::int32_t what, Document document);
+  [[nodiscard]] static Subject subject_of(const cairn_lcm::snapshot_request_t& request);
+  bool offer_snapshot(std::int64_t now_us, Subject subject, std::int64_t newer_than);
+  void add_snapshot(std::int64_t now_us, Subject subject, Document document);
   void queue_all_chunks(std::int64_t snapshot_id, const Snapshot& snapshot);
   void add_delta(std::int64_t utime, std::int32_t what, TileIndex index, GridState* state);
   void earn_tokens(std::int64_t now_us);

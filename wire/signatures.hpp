@@ -21,6 +21,7 @@ class frame_change_t;
 class gateway_t;
 class grid_map_t;
 class hypotheses_t;
+class hypothesis_map_t;
 class laser_scan_t;
 class map_delta_t;
 class name_request_t;
@@ -78,6 +79,10 @@ namespace cairn::wire {
   "}[10] i i[12] i[12] i f[15] f[15] i i[18] d d " \
   "d i i i b[25]"
 #define CAIRN_TILE "i i i b[2]"
+#define CAIRN_GRID_MAP "q q q d i i {" CAIRN_TILE "}[5]"
+#define CAIRN_TOPOLOGY "q q q q q d q i i {" CAIRN_PLACE "}[8] i {" CAIRN_SEGMENT "}[10]"
+#define CAIRN_TRAJECTORY "q q q i q[3] d[3] d[3] d[3] i q[8] i d[10]"
+#define CAIRN_VISIT_PLACES "q q q q i q[4]"
 #define CAIRN_SIGNATURE(type, text) \
   template <>                       \
   inline constexpr std::string_view kSignatureText<type> = text
@@ -94,9 +99,12 @@ CAIRN_SIGNATURE(cairn_lcm::explained_step_t, CAIRN_STEP);
 CAIRN_SIGNATURE(cairn_lcm::explanation_t, CAIRN_RESULT "q i q q d s q i i {" CAIRN_STEP "}[9]");
 CAIRN_SIGNATURE(cairn_lcm::frame_change_t, "q q q q q d d d d i q[9] d[9] d[9] d[9]");
 CAIRN_SIGNATURE(cairn_lcm::gateway_t, CAIRN_GATEWAY);
-CAIRN_SIGNATURE(cairn_lcm::grid_map_t, "q q q d i i {" CAIRN_TILE "}[5]");
+CAIRN_SIGNATURE(cairn_lcm::grid_map_t, CAIRN_GRID_MAP);
 CAIRN_SIGNATURE(cairn_lcm::hypotheses_t,
                 "q q q q q q q q q s s i q[11] q[11] d[11] d[11] i[11] i[11] i[11] i[11]");
+CAIRN_SIGNATURE(cairn_lcm::hypothesis_map_t,
+                "q q q q q {" CAIRN_TOPOLOGY "} {" CAIRN_GRID_MAP "} {" CAIRN_TRAJECTORY
+                "} {" CAIRN_VISIT_PLACES "}");
 CAIRN_SIGNATURE(cairn_lcm::laser_scan_t, "q d d d d i f[5]");
 CAIRN_SIGNATURE(cairn_lcm::map_delta_t, "q q q i q q d i i i i i b[11]");
 CAIRN_SIGNATURE(cairn_lcm::name_request_t, CAIRN_RPC_HEADER "q s");
@@ -114,18 +122,17 @@ CAIRN_SIGNATURE(cairn_lcm::pose_t, "q q d d d d[=9] q d d d d[=9] i d d d d[=9]"
 CAIRN_SIGNATURE(cairn_lcm::result_t, CAIRN_RPC_HEADER " i s i s");
 CAIRN_SIGNATURE(cairn_lcm::rpc_header_t, "q q i q");
 CAIRN_SIGNATURE(cairn_lcm::segment_t, CAIRN_SEGMENT);
-CAIRN_SIGNATURE(cairn_lcm::snapshot_chunk_t, "q q i q q q i i i i i i b[11]");
-CAIRN_SIGNATURE(cairn_lcm::snapshot_request_t, CAIRN_RPC_HEADER "i q q i i[4]");
+CAIRN_SIGNATURE(cairn_lcm::snapshot_chunk_t, "q q i q q q q i i i i i i b[12]");
+CAIRN_SIGNATURE(cairn_lcm::snapshot_request_t, CAIRN_RPC_HEADER "i q q q i i[5]");
 CAIRN_SIGNATURE(cairn_lcm::sonar_ring_t, "q i f[1] f[1] f[1] f[1]");
 CAIRN_SIGNATURE(cairn_lcm::status_t,
                 "q q i s i s s  q q q q  i i i q d i i q s  "
                 "i s s s d d d d q q q i f f s q q q q q q q q q s  "
                 "q q q q q q q q q q q q q i i f f f");
 CAIRN_SIGNATURE(cairn_lcm::tile_t, CAIRN_TILE);
-CAIRN_SIGNATURE(cairn_lcm::topology_t,
-                "q q q q q d q i i {" CAIRN_PLACE "}[8] i {" CAIRN_SEGMENT "}[10]");
-CAIRN_SIGNATURE(cairn_lcm::trajectory_t, "q q q i q[3] d[3] d[3] d[3] i q[8] i d[10]");
-CAIRN_SIGNATURE(cairn_lcm::visit_places_t, "q q q q i q[4]");
+CAIRN_SIGNATURE(cairn_lcm::topology_t, CAIRN_TOPOLOGY);
+CAIRN_SIGNATURE(cairn_lcm::trajectory_t, CAIRN_TRAJECTORY);
+CAIRN_SIGNATURE(cairn_lcm::visit_places_t, CAIRN_VISIT_PLACES);
 
 CAIRN_SIGNATURE(bot_core::planar_lidar_t, "q i f[1] i f[3] f f");
 CAIRN_SIGNATURE(bot_core::pose_t, "q d[=3] d[=3] d[=4] d[=3] d[=3]");
@@ -136,6 +143,10 @@ CAIRN_SIGNATURE(vulcan_lcm::laser_t, "i q i f f h f[5] h[5] f f f f f f f f");
 CAIRN_SIGNATURE(vulcan_lcm::odometry_t, "q i d d d d d");
 
 #undef CAIRN_SIGNATURE
+#undef CAIRN_VISIT_PLACES
+#undef CAIRN_TRAJECTORY
+#undef CAIRN_TOPOLOGY
+#undef CAIRN_GRID_MAP
 #undef CAIRN_TILE
 #undef CAIRN_PERCEIVED
 #undef CAIRN_OPENING

@@ -22,10 +22,13 @@ struct SourceOptions {
   LinkOptions link;
   std::string map_file;  ///< Empty: ask the daemon.
   bool as_json = false;
+  std::int64_t hypothesis = -1;  ///< A live one; -1: the best one.
 };
 
 void add_link_options(CLI::App& command, LinkOptions* link);
 void add_map_file(CLI::App& command, SourceOptions* options);
+/// For commands that show a map: another one than the best.
+void add_hypothesis(CLI::App& command, SourceOptions* options);
 void add_json_flag(CLI::App& command, bool* as_json);
 
 /// Accepts whole numbers from `low` on that fit into `high`; says what came in a few words, however
@@ -34,7 +37,7 @@ void add_json_flag(CLI::App& command, bool* as_json);
 /// What a person typed, short enough for a message.
 [[nodiscard]] std::string as_typed(const std::string& text);
 
-/// The map file where one is named, otherwise the daemon.
+/// The map file where one is named, otherwise the daemon; of these the hypothesis that is named.
 [[nodiscard]] std::unique_ptr<MapSource> open_source(const SourceOptions& options);
 
 // Each adds one subcommand, which does its work when the command line is parsed and throws Failure

@@ -33,6 +33,14 @@ void note(const Streams& streams, const std::string& path) {
   streams.err << "wrote " << path << '\n';
 }
 
+/// Whose map it is, where it is not taken for granted.
+void note_hypothesis(const SourceOptions& options, MapSource& source, const Streams& streams) {
+  if (options.hypothesis >= 0) {
+    streams.err << "hypothesis " << options.hypothesis << ", probability "
+                << fixed(source.topology().probability, 3) << '\n';
+  }
+}
+
 void write_map(const MapOptions& options, const Streams& streams) {
   if (options.png.empty() && options.pgm.empty() && options.svg.empty()) {
     throw Failure(ExitCode::kUsage, "map: name at least one output: --png, --pgm or --svg");
@@ -44,6 +52,7 @@ void write_map(const MapOptions& options, const Streams& streams) {
     throw Failure(ExitCode::kUsage, "map: --places are drawn into a picture: add --png FILE");
   }
   const std::unique_ptr<MapSource> source = open_source(options.source);
+  note_hypothesis(options.source, *source, streams);
   MapLayers layers;
   if (!options.png.empty() || !options.pgm.empty()) {
     layers.grid = raster_of(source->global_map());
@@ -78,6 +87,7 @@ void write_exports(const ExportOptions& options, const Streams& streams) {
                   "--dot or --graphml");
   }
   const std::unique_ptr<MapSource> source = open_source(options.source);
+  note_hypothesis(options.source, *source, streams);
   const auto write = [&](const std::string& path, const std::string& content) {
     write_file(path, content);
     note(streams, path);
@@ -120,6 +130,7 @@ void add_map_command(CLI::App& app, const Streams& streams) {
       ->capture_default_str()
       ->check(CLI::Range(64, 16384));
   add_map_file(*command, &options->source);
+  add_hypothesis(*command, &options->source);
   add_link_options(*command, &options->source.link);
   command->callback([options, streams] { write_map(*options, streams); });
 }
@@ -135,6 +146,7 @@ void add_export_command(CLI::App& app, const Streams& streams) {
   command->add_option("--dot", options->dot, "Topological map for Graphviz");
   command->add_option("--graphml", options->graphml, "Topological map as GraphML");
   add_map_file(*command, &options->source);
+  add_hypothesis(*command, &options->source);
   add_link_options(*command, &options->source.link);
   command->callback([options, streams] { write_exports(*options, streams); });
 }

@@ -99,6 +99,7 @@ void add_places_command(CLI::App& app, const Streams& streams) {
   command->add_flag("--all", options->with_all_visits,
                     "Draw every visit, not only the one that the map shows");
   add_map_file(*command, &options->source);
+  add_hypothesis(*command, &options->source);
   add_json_flag(*command, &options->source.as_json);
   add_link_options(*command, &options->source.link);
   command->callback([options, streams] { show_places(*options, streams); });

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <charconv>
 #include <exception>
+#include <limits>
 #include <new>
+#include <utility>
 
 #include "clients/cairn/commands.hpp"
 #include "clients/common/failure.hpp"
+#include "clients/common/hypothesis_source.hpp"
 #include "clients/common/map_file.hpp"
 #include "clients/common/text.hpp"
 #include "clients/common/within.hpp"
@@ -53,6 +56,13 @@ void add_map_file(CLI::App& command, SourceOptions* options) {
   command.add_option("mapfile", options->map_file, "Read this map file instead of asking a daemon");
 }
 
+void add_hypothesis(CLI::App& command, SourceOptions* options) {
+  command
+      .add_option("--hypothesis", options->hypothesis,
+                  "Another one of 'cairn hypotheses' than the best, drawn by the daemon for this")
+      ->check(whole_number(0, std::numeric_limits<std::int64_t>::max()));
+}
+
 void add_json_flag(CLI::App& command, bool* as_json) {
   command.add_flag("--json", *as_json, "Print JSON");
 }
@@ -77,10 +87,16 @@ CLI::Validator whole_number(std::int64_t low, std::int64_t high) {
 }
 
 std::unique_ptr<MapSource> open_source(const SourceOptions& options) {
-  if (!options.map_file.empty()) {
-    return std::make_unique<MapFile>(options.map_file);
+  std::unique_ptr<MapSource> source;
+  if (options.map_file.empty()) {
+    source = std::make_unique<DaemonLink>(options.link);
+  } else {
+    source = std::make_unique<MapFile>(options.map_file);
   }
-  return std::make_unique<DaemonLink>(options.link);
+  if (options.hypothesis >= 0) {
+    source = std::make_unique<HypothesisSource>(std::move(source), options.hypothesis);
+  }
+  return source;
 }
 
 int run_cairn(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {

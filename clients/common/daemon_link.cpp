@@ -170,14 +170,16 @@ cairn_lcm::status_t DaemonLink::status() {
   return *inbox_->status;
 }
 
-std::vector<std::uint8_t> DaemonLink::fetch(std::int32_t what, const char* name) {
+std::vector<std::uint8_t> DaemonLink::fetch(std::int32_t what,
+                                            const std::string& name,
+                                            std::int64_t hypothesis_id) {
   wire::ReplicationRequests requests;
   // A new client for each document, since each counts its requests from the beginning.
   requests.client_id = random_client_id();
   requests.send_snapshot_request = [this](const Request& request) {
     bus_->publish("CAIRN_REQUEST_SNAPSHOT", request);
   };
-  wire::DocumentFetch fetch(what, 0, requests);
+  wire::DocumentFetch fetch(what, 0, requests, hypothesis_id);
   const std::int64_t begin_us = inbox_->begin(requests.client_id);
   inbox_->fetch = &fetch;
   const auto leave = [this](wire::DocumentFetch*) { inbox_->fetch = nullptr; };
@@ -190,37 +192,60 @@ std::vector<std::uint8_t> DaemonLink::fetch(std::int32_t what, const char* name)
     throw no_daemon();
   }
   throw Failure(ExitCode::kNoService,
-                std::string("the daemon lives, but its ") + name + " did not come through");
+                "the daemon lives, but its " + name + " did not come through");
 }
 
-void DaemonLink::wait_for(wire::DocumentFetch& fetch, const char* name) {
-  Progress progress(std::string("receiving the ") + name);
+bool DaemonLink::is_at_work(const std::string& name, std::string* busy_with) {
+  const std::optional<result_t> result = std::exchange(inbox_->result, std::nullopt);
+  if (!result) {
+    return false;
+  }
+  if (result->code == result_t::BUSY) {
+    *busy_with = printable(result->reason);
+  } else if (result->code >= result_t::BAD_REQUEST) {
+    const bool is_ours = result->code != result_t::FAILED;
+    throw Failure(is_ours ? ExitCode::kBadData : ExitCode::kNoService,
+                  "the daemon has no " + name + ": " + printable(result->reason));
+  }
+  return result->code == result_t::ACCEPTED;
+}
+
+void DaemonLink::wait_for(wire::DocumentFetch& fetch, const std::string& name) {
+  Progress progress("receiving the " + name);
   std::int64_t advanced_us = steady_us();
   double share = 0.0;
-  while (fetch.tick(steady_us(), now_utime()) == wire::DocumentFetch::State::kAsking &&
-         !is_longer_than(kPatience * options_.timeout_s, advanced_us)) {
+  std::string busy_with;
+  while (fetch.tick(steady_us(), now_utime()) == wire::DocumentFetch::State::kAsking) {
+    if (is_longer_than(kPatience * options_.timeout_s, advanced_us)) {
+      break;
+    }
     handle(kTick);
-    if (fetch.progress() != share) {
+    const bool is_at_work_now = is_at_work(name, &busy_with);
+    if (is_at_work_now || !busy_with.empty()) {
+      fetch.accepted();
+    }
+    if (is_at_work_now || fetch.progress() != share) {
       share = fetch.progress();
       advanced_us = steady_us();
+      busy_with.clear();
       progress.show(static_cast<std::int64_t>(share * 1000.0), 1000);
-    }
-    if (inbox_->result && inbox_->result->code >= result_t::BAD_REQUEST &&
-        inbox_->result->code != result_t::BUSY) {
-      throw Failure(ExitCode::kBadData, std::string("the daemon has no ") + name + ": " +
-                                            printable(inbox_->result->reason));
     }
     if (is_longer_than(options_.timeout_s, inbox_->heard_us)) {
       throw no_daemon();
     }
   }
+  if (!busy_with.empty()) {
+    throw Failure(ExitCode::kNoService, "the daemon is busy: " + busy_with + "; ask again later");
+  }
 }
 
 template <typename Message>
-Message DaemonLink::document(std::int32_t what, const char* name) {
-  wire::Expected<Message> message = wire::from_document<Message>(fetch(what, name));
+Message DaemonLink::document(std::int32_t what,
+                             const std::string& name,
+                             std::int64_t hypothesis_id) {
+  wire::Expected<Message> message = wire::from_document<Message>(fetch(what, name, hypothesis_id));
   if (!message) {
-    throw Failure(ExitCode::kBadData, std::string("the daemon's ") + name + ": " + message.error());
+    throw Failure(ExitCode::kBadData, "the daemon's " + name + ": " + message.error());
   }
   return *std::move(message);
 }
@@ -297,6 +322,11 @@ cairn_lcm::explanation_t DaemonLink::explain(cairn_lcm::explain_request_t reques
 
 cairn_lcm::visit_places_t DaemonLink::visit_places() {
   return document<cairn_lcm::visit_places_t>(Request::VISITS, "list of visits");
+}
+
+cairn_lcm::hypothesis_map_t DaemonLink::hypothesis_map(std::int64_t hypothesis_id) {
+  return document<cairn_lcm::hypothesis_map_t>(
+      Request::HYPOTHESIS_MAP, "map of hypothesis " + std::to_string(hypothesis_id), hypothesis_id);
 }
 
 cairn_lcm::perceived_place_t DaemonLink::perceived_place(std::int64_t visit) {

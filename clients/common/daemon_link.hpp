@@ -52,6 +52,8 @@ class DaemonLink final : public MapSource {
 
   [[nodiscard]] cairn_lcm::visit_places_t visit_places() override;
   [[nodiscard]] cairn_lcm::perceived_place_t perceived_place(std::int64_t visit) override;
+  /// Waits for as long as the daemon draws; kBadData where no such hypothesis is live.
+  [[nodiscard]] cairn_lcm::hypothesis_map_t hypothesis_map(std::int64_t hypothesis_id) override;
 
   /// The next heartbeat.
   [[nodiscard]] cairn_lcm::status_t status();
@@ -74,13 +76,20 @@ class DaemonLink final : public MapSource {
   struct Inbox;
 
   void subscribe();
-  [[nodiscard]] std::vector<std::uint8_t> fetch(std::int32_t what, const char* name);
-  void wait_for(wire::DocumentFetch& fetch, const char* name);
+  [[nodiscard]] std::vector<std::uint8_t> fetch(std::int32_t what,
+                                                const std::string& name,
+                                                std::int64_t hypothesis_id);
+  void wait_for(wire::DocumentFetch& fetch, const std::string& name);
+  /// Of an answer in place of the document. Throws Failure for a refusal.
+  /// @return whether the daemon works on it
+  [[nodiscard]] bool is_at_work(const std::string& name, std::string* busy_with);
   /// Asks until there is an answer, and waits for as long as the daemon works on it.
   template <typename Answer, typename Request>
   [[nodiscard]] Answer ask(const std::string& channel, Request request);
   template <typename Message>
-  [[nodiscard]] Message document(std::int32_t what, const char* name);
+  [[nodiscard]] Message document(std::int32_t what,
+                                 const std::string& name,
+                                 std::int64_t hypothesis_id = 0);
 
   LinkOptions options_;
   std::unique_ptr<wire::Bus> own_bus_;

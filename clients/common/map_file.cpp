@@ -1,5 +1,6 @@
 #include "clients/common/map_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 
@@ -55,6 +56,17 @@ const char* name_of(std::int32_t what) {
          : what == Request::TRAJECTORY ? "trajectory"
          : what == Request::VISITS     ? "list of visits"
                                        : "document of this kind";
+}
+
+std::string listed(const std::vector<std::int64_t>& numbers) {
+  constexpr std::size_t kMost = 10;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(numbers.size(), kMost); ++i) {
+    text += (i == 0 ? "" : ", ") + std::to_string(numbers[i]);
+  }
+  return numbers.size() <= kMost
+             ? text
+             : text + " and " + std::to_string(numbers.size() - kMost) + " more";
 }
 
 Statement prepare(sqlite3* database, const std::filesystem::path& path, const std::string& sql) {
@@ -248,6 +260,31 @@ cairn_lcm::trajectory_t MapFile::trajectory() {
 
 cairn_lcm::visit_places_t MapFile::visit_places() {
   return document<cairn_lcm::visit_places_t>(cairn_lcm::snapshot_request_t::VISITS);
+}
+
+cairn_lcm::hypothesis_map_t MapFile::hypothesis_map(std::int64_t hypothesis_id) {
+  cairn_lcm::hypothesis_map_t map{};
+  map.topology = topology();
+  const std::int64_t best = map.topology.hypothesis_id;
+  if (best != hypothesis_id) {
+    const std::vector<std::int64_t> live = hypotheses().id;
+    const bool is_live = std::find(live.begin(), live.end(), hypothesis_id) != live.end();
+    const std::string number = std::to_string(hypothesis_id);
+    throw unreadable(
+        path_, is_live
+                   ? "holds the map of its best hypothesis only, which is " + std::to_string(best) +
+                         ", not that of " + number + ": run cairnd --map with this file, and ask it"
+                   : "has no live hypothesis " + number + "; expected one of " + listed(live));
+  }
+  map.hypothesis_id = best;
+  map.utime = map.topology.utime;
+  map.boot_id = map.topology.boot_id;
+  map.map_id = map.topology.map_id;
+  map.revision = map.topology.revision;
+  map.global_map = global_map();
+  map.trajectory = trajectory();
+  map.visits = visit_places();
+  return map;
 }
 
 cairn_lcm::perceived_place_t MapFile::perceived_place(std::int64_t visit) {

@@ -36,6 +36,9 @@ class MapFile final : public MapSource {
   [[nodiscard]] cairn_lcm::visit_places_t visit_places() override;
   [[nodiscard]] cairn_lcm::perceived_place_t perceived_place(std::int64_t visit) override;
 
+  /// Of the best hypothesis alone: a map file holds the drawing of no other.
+  [[nodiscard]] cairn_lcm::hypothesis_map_t hypothesis_map(std::int64_t hypothesis_id) override;
+
   /// The table `meta`.
   [[nodiscard]] const std::map<std::string, std::string>& meta() const { return meta_; }
   /// Which documents there are, by `what` of snapshot_request_t.

@@ -3,6 +3,7 @@
 #include <cairn_lcm/assertions_t.hpp>
 #include <cairn_lcm/grid_map_t.hpp>
 #include <cairn_lcm/hypotheses_t.hpp>
+#include <cairn_lcm/hypothesis_map_t.hpp>
 #include <cairn_lcm/perceived_place_t.hpp>
 #include <cairn_lcm/topology_t.hpp>
 #include <cairn_lcm/trajectory_t.hpp>
@@ -30,6 +31,8 @@ class MapSource {
   [[nodiscard]] virtual cairn_lcm::visit_places_t visit_places() = 0;
   /// What was seen of a place at a visit.
   [[nodiscard]] virtual cairn_lcm::perceived_place_t perceived_place(std::int64_t visit) = 0;
+  /// All of the map of one live hypothesis. kBadData where it is not live, or not at hand.
+  [[nodiscard]] virtual cairn_lcm::hypothesis_map_t hypothesis_map(std::int64_t hypothesis_id) = 0;
 };
 
 }  // namespace cairn::clients

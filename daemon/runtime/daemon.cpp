@@ -10,6 +10,7 @@
 #include <poll.h>
 #include <spdlog/spdlog.h>
 
+#include "runtime/hypothesis_drawer.hpp"
 #include "runtime/map_log.hpp"
 #include "runtime/mapping_thread.hpp"
 #include "runtime/planner.hpp"
@@ -49,12 +50,13 @@ class Daemon {
                  wakeup_),
         solver_(
             options.service.refinement, options.service.global_map, options.service.path, wakeup_),
-        publisher_(
-            bus,
-            new_boot_id(),
-            options.service.localisation,
-            [this](const cairn_lcm::plan_request_t& request) { return order_plan(request); },
-            [this](MapRequest request) { mapping_.ask(std::move(request)); }),
+        hypothesis_drawer_(options.service.refinement, options.service.global_map, wakeup_),
+        publisher_(bus,
+                   new_boot_id(),
+                   options.service.localisation,
+                   {[this](const cairn_lcm::plan_request_t& one) { return order_plan(one); },
+                    [this](MapRequest one) { mapping_.ask(std::move(one)); },
+                    [this](const cairn_lcm::snapshot_request_t& one) { mapping_.ask(one); }}),
         inlets_(to_inlet_options(options),
                 {[this](LaserScan scan) { take(std::move(scan)); },
                  [this](OdometrySample sample) { take(sample); }, [](const SonarRing&) {}}),
@@ -130,6 +132,9 @@ class Daemon {
       if (report->state != nullptr) {
         newest_ = report->state;
       }
+      if (report->hypothesis && report->hypothesis->state) {
+        hypothesis_drawer_.order({*report->hypothesis->state, publisher_.sender()});
+      }
       log_extensions(*report);
       log_assertion(*report);
     }
@@ -194,6 +199,9 @@ class Daemon {
       drawing_end_us_ = steady_us();
       drawing_us_ = drawing_end_us_ - drawing_begin_us_;
     }
+    while (std::optional<HypothesisDrawing> drawing = hypothesis_drawer_.next_drawing()) {
+      publisher_.publish(*std::move(drawing));
+    }
     order_drawing();
   }
 
@@ -236,6 +244,7 @@ class Daemon {
   Wakeup wakeup_;
   MappingThread mapping_;
   SolverThread solver_;
+  HypothesisDrawer hypothesis_drawer_;
   Publisher publisher_;
   Inlets inlets_;
   Supervisor supervisor_;

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include <cairn_lcm/grid_map_t.hpp>
 #include <cairn_lcm/snapshot_request_t.hpp>
 
 #include "wire/document.hpp"
@@ -66,11 +65,15 @@ std::map<wire::TileIndex, wire::TileCells> MapMaker::draw(const MapState& state)
   return changed;
 }
 
+cairn_lcm::grid_map_t MapMaker::grid_map(const Sender& sender) {
+  grid_.map_id = sender.map_id;
+  return wire::to_message(grid_);
+}
+
 Documents MapMaker::documents(const MapState& state, const Sender& sender) {
   using What = cairn_lcm::snapshot_request_t;
-  grid_.map_id = sender.map_id;
   Documents documents = documents_without_drawing(state, sender);
-  documents.bytes[What::GLOBAL_MAP] = wire::to_document(wire::to_message(grid_));
+  documents.bytes[What::GLOBAL_MAP] = wire::to_document(grid_map(sender));
   return documents;
 }
 

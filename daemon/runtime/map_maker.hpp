@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include <cairn_lcm/grid_map_t.hpp>
+
 #include "global_map/global_map.hpp"
 #include "service/map_state.hpp"
 #include "transport/map_messages.hpp"
@@ -31,6 +33,8 @@ class MapMaker {
   /// @return the tiles that look different now
   std::map<wire::TileIndex, wire::TileCells> draw(const MapState& state);
 
+  /// All tiles, as they are now.
+  [[nodiscard]] cairn_lcm::grid_map_t grid_map(const Sender& sender);
   /// Everything that is stored, as it is now.
   [[nodiscard]] Documents documents(const MapState& state, const Sender& sender);
 

@@ -44,13 +44,8 @@ void MappingThread::run() {
   report({}, 0.0);
   while (!orders_.is_over()) {
     if (std::optional<Order> order = orders_.pop_within(std::chrono::seconds(1))) {
-      if (auto* const documents = std::get_if<Documents>(&*order)) {
-        engine_->store(*documents);
-      } else if (auto* const request = std::get_if<MapRequest>(&*order)) {
-        carry_out(*request);
-      } else {
-        carry_out(std::get<SensorReading>(*std::move(order)));
-      }
+      std::visit([this](auto&& one) { carry_out(std::forward<decltype(one)>(one)); },
+                 *std::move(order));
     } else if (!orders_.is_over() && is_due(last_reading_, options_.pause_after_s)) {
       finish_pause();
     }
@@ -86,6 +81,20 @@ void MappingThread::carry_out(const MapRequest& request) {
   if (engine_->service().revision() != revision) {
     report.state = engine_->service().state();
   }
+  reports_.push(std::move(report));
+  wakeup_.signal();
+}
+
+/// As long as a visit takes to be laid out. Drawn elsewhere.
+void MappingThread::carry_out(cairn_lcm::snapshot_request_t request) {
+  MappingReport report = own_report();
+  Result<std::shared_ptr<const MapState>> state =
+      engine_->service().state_of(request.hypothesis_id);
+  if (state && !report.journal_trouble.empty()) {
+    state =
+        Error{ErrorCode::kUnavailable, "the map file cannot be written: " + report.journal_trouble};
+  }
+  report.hypothesis = AskedHypothesis{std::move(request), std::move(state)};
   reports_.push(std::move(report));
   wakeup_.signal();
 }

@@ -17,6 +17,7 @@
 #include <cairn_lcm/perception_request_t.hpp>
 #include <cairn_lcm/perception_t.hpp>
 #include <cairn_lcm/result_t.hpp>
+#include <cairn_lcm/snapshot_request_t.hpp>
 
 #include "runtime/bounded_queue.hpp"
 #include "runtime/engine.hpp"
@@ -40,6 +41,12 @@ using MapAnswer = std::variant<cairn_lcm::result_t,
                                cairn_lcm::explanation_t,
                                cairn_lcm::perception_t>;
 
+/// The map of a hypothesis, laid out on request and not drawn yet.
+struct AskedHypothesis {
+  cairn_lcm::snapshot_request_t request;
+  Result<std::shared_ptr<const MapState>> state;
+};
+
 /// What the mapping thread makes known to the event loop; journalled before it is handed out.
 struct MappingReport {
   std::vector<MappedFix> fixes;
@@ -54,6 +61,7 @@ struct MappingReport {
   double distinctiveness = 0.0;  ///< Of where the robot is.
   std::optional<Relocalisation> relocalised;
   std::optional<MapAnswer> answer;
+  std::optional<AskedHypothesis> hypothesis;
   double update_ms = 0.0;  ///< To take the reading in.
   std::string journal_trouble;
 };
@@ -80,6 +88,8 @@ class MappingThread {
 
   void take(SensorReading reading) { orders_.push(std::move(reading)); }
   void ask(MapRequest request) { orders_.push(std::move(request)); }
+  /// For the map of a hypothesis.
+  void ask(cairn_lcm::snapshot_request_t request) { orders_.push(std::move(request)); }
   void store(Documents documents) { orders_.push(std::move(documents)); }
   [[nodiscard]] std::optional<MappingReport> next_report() { return reports_.try_pop(); }
 
@@ -93,10 +103,12 @@ class MappingThread {
   std::unique_ptr<Engine> stop();
 
  private:
-  using Order = std::variant<SensorReading, Documents, MapRequest>;
+  using Order = std::variant<SensorReading, Documents, MapRequest, cairn_lcm::snapshot_request_t>;
   void run();
   void carry_out(SensorReading reading);
   void carry_out(const MapRequest& request);
+  void carry_out(cairn_lcm::snapshot_request_t request);
+  void carry_out(const Documents& documents) { engine_->store(documents); }
   MapAnswer answered(const cairn_lcm::name_request_t& request);
   MapAnswer answered(const cairn_lcm::assert_request_t& request);
   MapAnswer answered(const cairn_lcm::explain_request_t& request);

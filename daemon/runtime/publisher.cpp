@@ -49,12 +49,10 @@ std::int64_t steady_us() {
 Publisher::Publisher(wire::Bus& bus,
                      std::int64_t boot_id,
                      const LocalisationOptions& localisation,
-                     OrderPlan order_plan,
-                     OrderMapping order_mapping)
+                     Orders orders)
     : bus_(bus),
       boot_id_(boot_id),
-      order_plan_(std::move(order_plan)),
-      order_mapping_(std::move(order_mapping)),
+      orders_(std::move(orders)),
       replication_(
           boot_id,
           [this](const cairn_lcm::snapshot_chunk_t& chunk) {
@@ -97,6 +95,9 @@ void Publisher::publish(const MappingReport& report) {
   }
   if (report.answer) {
     publish(*report.answer);
+  }
+  if (report.hypothesis) {
+    note_laid_out(*report.hypothesis);
   }
   publish_health(report);
   publish_relocalisation(report);
@@ -210,6 +211,12 @@ void Publisher::publish(const cairn_lcm::plan_t& plan) {
   results_.store(plan.result.header.client_id, plan.result.header.request_id,
                  {"CAIRN_PLAN", bytes});
   bus_.publish("CAIRN_PLAN", bytes);
+}
+
+void Publisher::publish(HypothesisDrawing drawing) {
+  hypothesis_under_way_.reset();
+  replication_.offer_hypothesis_map(steady_us(), drawing.hypothesis_id,
+                                    std::move(drawing.document));
 }
 
 void Publisher::publish(cairn_lcm::status_t status) {

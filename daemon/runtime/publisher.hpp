@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -16,6 +17,7 @@
 #include <cairn_lcm/status_t.hpp>
 
 #include "runtime/event_book.hpp"
+#include "runtime/hypothesis_drawer.hpp"
 #include "runtime/mapping_thread.hpp"
 #include "runtime/solver_thread.hpp"
 #include "wire/bus.hpp"
@@ -27,17 +29,22 @@ namespace cairn {
 /// The daemon's voice on the bus, and its ear for requests. Belongs to the event loop.
 class Publisher {
  public:
-  /// Takes a plan request to the solver. @return false where too many wait already
-  using OrderPlan = std::function<bool(const cairn_lcm::plan_request_t&)>;
-  /// Takes a request to the mapping thread.
-  using OrderMapping = std::function<void(MapRequest)>;
+  /// Where requests are taken that are not answered here.
+  struct Orders {
+    /// To the solver. @return false where too many wait already
+    std::function<bool(const cairn_lcm::plan_request_t&)> plan;
+    /// To the mapping thread.
+    std::function<void(MapRequest)> mapping;
+    /// The map of a hypothesis, to the mapping thread, which answers in MappingReport::hypothesis;
+    /// one at a time.
+    std::function<void(const cairn_lcm::snapshot_request_t&)> hypothesis;
+  };
 
   /// @param bus must outlive this object
   Publisher(wire::Bus& bus,
             std::int64_t boot_id,
             const LocalisationOptions& localisation,
-            OrderPlan order_plan,
-            OrderMapping order_mapping);
+            Orders orders);
 
   /// Listens to requests and to the status of other daemons.
   /// @return false where LCM refuses
@@ -47,6 +54,8 @@ class Publisher {
   void publish(const MappingReport& report);
   void publish(const Drawing& drawing, const GlobalMapOptions& options);
   void publish(const cairn_lcm::plan_t& plan);
+  /// The map of a hypothesis, to who asked for it; another one may be asked for then.
+  void publish(HypothesisDrawing drawing);
   /// Fills in what is known here, and sends it.
   void publish(cairn_lcm::status_t status);
   /// Sends what the pace allows.
@@ -69,6 +78,8 @@ class Publisher {
   void on_map_request(const Request& request);
   void publish(const MapAnswer& answer);
   void on_snapshot(const cairn_lcm::snapshot_request_t& request);
+  void on_hypothesis_map(const cairn_lcm::snapshot_request_t& request);
+  void note_laid_out(const AskedHypothesis& hypothesis);
   [[nodiscard]] bool is_behind() const;
   void answer_held();
   void on_delta(const cairn_lcm::delta_request_t& request);
@@ -86,8 +97,7 @@ class Publisher {
   wire::Bus& bus_;
   std::int64_t boot_id_;
   std::int64_t map_id_ = 0;
-  OrderPlan order_plan_;
-  OrderMapping order_mapping_;
+  Orders orders_;
   wire::ReplicationServer replication_;
   wire::ResultCache results_;
   /// By client and request: since when.
@@ -99,6 +109,13 @@ class Publisher {
   std::shared_ptr<const MapState> told_;   ///< As clients have it; nearly the same.
   std::int64_t newest_revision_ = -1;      ///< Of the map; what clients have may be behind it.
   std::deque<cairn_lcm::snapshot_request_t> held_;  ///< Until clients can have the newest.
+  /// The map of a hypothesis that is being made.
+  struct HypothesisUnderWay {
+    std::int64_t hypothesis_id = -1;
+    std::int64_t since_us = 0;
+    bool is_drawing = false;  ///< Laid out; else it waits for the mapping thread.
+  };
+  std::optional<HypothesisUnderWay> hypothesis_under_way_;
   std::int64_t foreign_daemons_ = 0;
   std::int64_t foreign_boot_id_ = 0;
   std::int64_t foreign_heard_us_ = 0;

@@ -54,7 +54,7 @@ void Publisher::on_plan(const cairn_lcm::plan_request_t& request) {
   if (under_way_us_.count(key) != 0) {
     return;  // Asked again: the answer is on its way.
   }
-  if (order_plan_(request)) {
+  if (orders_.plan(request)) {
     under_way_us_[key] = steady_us();
   } else {
     // Not stored: the client is asked to come back.
@@ -82,7 +82,7 @@ void Publisher::on_map_request(const Request& request) {
     return;
   }
   since->second = steady_us();
-  order_mapping_(request);
+  orders_.mapping(request);
 }
 
 void Publisher::answer(const cairn_lcm::rpc_header_t& request,
@@ -115,6 +115,10 @@ void Publisher::answer_held() {
 }
 
 void Publisher::on_snapshot(const cairn_lcm::snapshot_request_t& request) {
+  if (request.what == cairn_lcm::snapshot_request_t::HYPOTHESIS_MAP) {
+    on_hypothesis_map(request);
+    return;
+  }
   const bool is_of_a_map = request.what != cairn_lcm::snapshot_request_t::LPM;
   if (is_of_a_map && is_behind()) {
     held_.push_back(request);
@@ -127,6 +131,39 @@ void Publisher::on_snapshot(const cairn_lcm::snapshot_request_t& request) {
     answer(request.header, Code::NOT_FOUND, "NOT_FOUND",
            "there is nothing of kind " + std::to_string(request.what) + " yet");
   }
+}
+
+/// One at a time: refining and drawing a large map takes a core for a while, and memory.
+void Publisher::on_hypothesis_map(const cairn_lcm::snapshot_request_t& request) {
+  const std::int64_t now_us = steady_us();
+  if (replication_.on_request(now_us, request)) {
+    return;
+  }
+  const std::optional<HypothesisUnderWay> under_way = hypothesis_under_way_;
+  // The mapping thread drops what it cannot hold.
+  const bool is_lost =
+      under_way && !under_way->is_drawing && now_us - under_way->since_us > kLost_us;
+  if (!under_way || is_lost) {
+    hypothesis_under_way_ = {request.hypothesis_id, now_us, false};
+    orders_.hypothesis(request);
+  } else if (under_way->hypothesis_id != request.hypothesis_id) {
+    answer(request.header, Code::BUSY, "BUSY",
+           "the map of hypothesis " + std::to_string(under_way->hypothesis_id) +
+               " is being drawn, and no more than one at a time");
+    return;
+  }
+  answer(request.header, Code::ACCEPTED, "ACCEPTED", "");
+}
+
+void Publisher::note_laid_out(const AskedHypothesis& hypothesis) {
+  if (hypothesis.state) {
+    hypothesis_under_way_ = {hypothesis.request.hypothesis_id, steady_us(), true};
+    return;
+  }
+  hypothesis_under_way_.reset();
+  const cairn_lcm::result_t refusal =
+      to_result(hypothesis.request.header, hypothesis.state.error());
+  answer(refusal.header, refusal.code, refusal.code_name, refusal.reason);
 }
 
 void Publisher::on_delta(const cairn_lcm::delta_request_t& request) {

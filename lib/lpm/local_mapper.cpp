@@ -28,7 +28,9 @@ constexpr double kSlip = 9.0;               // squared Mahalanobis of fix and wi
 constexpr double kGoodScore = 0.85;         // a match that leaves no wish for another
 constexpr double kLeastOfUsualScore = 0.6;  // a sudden fall below it is a wrong match
 constexpr double kClearlyBetter = 0.05;     // in score
-constexpr float kCover_m = 0.5F;            // a robot in so little room could not move
+constexpr double kUnsure_m = 1.0;
+constexpr double kUnsure_rad = 0.2;
+constexpr float kCover_m = 0.5F;  // a robot in so little room could not move
 constexpr double kCoveredShare = 0.8;
 constexpr int kAskEvery = 4;             // scans: what is behind walls changes slowly
 constexpr double kGoesOn = 0.65;         // of returns: the surroundings are those of before
@@ -63,6 +65,12 @@ bool is_degenerate(const Matrix3d& covariance) {
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(translation).eigenvalues().y();
   return largest > kDegenerateSigma_m * kDegenerateSigma_m ||
          covariance(2, 2) > kDegenerateSigma_rad * kDegenerateSigma_rad;
+}
+
+/// Of a way that nothing but odometry tells of.
+bool is_unsure(const Matrix3d& covariance) {
+  return covariance(0, 0) + covariance(1, 1) > kUnsure_m * kUnsure_m ||
+         covariance(2, 2) > kUnsure_rad * kUnsure_rad;
 }
 
 bool is_refused(FixNote note) {
@@ -130,7 +138,7 @@ LocalFix LocalMapper::locate(const JoinedScan& joined) {
       // What the map holds would be forgotten by now: whatever looks like it may be another place.
       // The new map is drawn around the robot; how it lies to the old one is what the motion says.
       clear_map();
-      ++renewals_;
+      ++(is_unsure(fix.motion.covariance) ? restarts_ : renewals_);
       fix.note = FixNote::kFirst;
       fix.covariance = diagonal(kLeastSigma_m, kLeastSigma_m, kLeastSigma_rad);
     } else {

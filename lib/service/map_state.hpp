@@ -86,7 +86,7 @@ struct MapState {
   TimePoint time;  ///< Of the last scan.
   std::int64_t topology_revision = 0;
   std::int64_t visit_count = 0;
-  std::int64_t hypothesis = -1;  ///< The best one; -1: no visit yet.
+  std::int64_t hypothesis = -1;  ///< Whose map this is, mostly the best one; -1: no visit yet.
   double probability = 0.0;
   int at_place = -1;  ///< Where the last visit was.
   int path_count = 0;

@@ -43,6 +43,9 @@ Updates MappingService::resume() {
 std::shared_ptr<const MapState> MappingService::state() const {
   return pipeline_->state();
 }
+Result<std::shared_ptr<const MapState>> MappingService::state_of(std::int64_t hypothesis) const {
+  return pipeline_->state_of(hypothesis);
+}
 std::int64_t MappingService::revision() const {
   return pipeline_->revision();
 }

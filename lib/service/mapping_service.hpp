@@ -81,6 +81,12 @@ class MappingService {
   /// The best map with everything that is published of it.
   [[nodiscard]] std::shared_ptr<const MapState> state() const;
 
+  /// The same of any live hypothesis, laid out for the asking: as long as a visit takes to be laid
+  /// out. Of the best one equal to state(). Nothing here changes by it.
+  /// kNotFound where none by that id is live, with those that are; an error as of solve_layout
+  /// where its layout does not converge.
+  [[nodiscard]] Result<std::shared_ptr<const MapState>> state_of(std::int64_t hypothesis) const;
+
   /// Of the best map: goes up with every change. state() has it too, at a higher price.
   [[nodiscard]] std::int64_t revision() const;
 

@@ -76,9 +76,9 @@ Updates MappingService::Pipeline::perceive_joined() {
 }
 
 LocalFix MappingService::Pipeline::localise(const JoinedScan& joined, Updates* updates) {
+  const std::int64_t restarts = local_mapper_.restarts();
   LocalFix fix = local_mapper_.locate(joined);
   watch_.observe(fix, joined.T_odom_robot.has_value());
-  const std::int64_t restarts = local_mapper_.restarts();
   if (watch_.needs_new_map()) {
     local_mapper_.start_anew();
   } else if (watch_.may_map()) {
@@ -103,7 +103,7 @@ void MappingService::Pipeline::relocalise(const PerceivedScan& scan, Updates* up
 void MappingService::Pipeline::take_leave_of_map(LocalFix* fix, Updates* updates) {
   close_open_visits(updates);
   enter(Stage::kLocalMapping);
-  relocaliser_.start(trajectory());
+  relocaliser_.start(trajectory(metrical_));
   const double way_m = options_.localisation.unknown_way_m;
   const double turn_rad = options_.localisation.unknown_turn_rad;
   fix->motion.covariance.diagonal() += Eigen::Vector3d(way_m, way_m, turn_rad).cwiseAbs2();

@@ -44,6 +44,7 @@ class MappingService::Pipeline {
   [[nodiscard]] std::optional<VisitId> first_visit(int place) const;
 
   [[nodiscard]] std::shared_ptr<const MapState> state() const;
+  [[nodiscard]] Result<std::shared_ptr<const MapState>> state_of(std::int64_t hypothesis) const;
   [[nodiscard]] std::int64_t revision() const { return revision_; }
   [[nodiscard]] const Experience& experience() const { return experience_; }
   [[nodiscard]] const HypothesisTree& tree() const { return tree_; }
@@ -58,7 +59,7 @@ class MappingService::Pipeline {
   }
 
  private:
-  /// The best hypothesis, as of the last layout.
+  /// A hypothesis, as of its layout.
   struct LaidOut {
     HypothesisId id;
     TopologicalMap map;
@@ -95,11 +96,13 @@ class MappingService::Pipeline {
   void take_in(const AssertionReport& report);
   void lay_out();
   /// Every scan so far in the global frame.
-  [[nodiscard]] std::vector<PosedScan> trajectory() const;
+  [[nodiscard]] std::vector<PosedScan> trajectory(const MetricalMap& metrical) const;
   [[nodiscard]] int nearest_place(const Vector2d& p_global, double* distance_m) const;
   /// From here on the robot's pose is this place's, and the motions since.
   void anchor_robot();
-  void tell_best_map(MapState* state) const;
+  /// What there is without a map, and where it lies.
+  [[nodiscard]] std::shared_ptr<MapState> picture_of(const MetricalMap& metrical) const;
+  void tell_map(const LaidOut& laid_out, const MetricalMap& metrical, MapState* state) const;
   void tell_hypotheses(MapState* state) const;
 
   ServiceOptions options_;
@@ -116,7 +119,7 @@ class MappingService::Pipeline {
   VisitMatcher matcher_;
   mutable SharedLayouts layouts_;  ///< Of the hypotheses; a memo.
   HypothesisTree tree_;
-  std::optional<LaidOut> laid_out_;
+  std::optional<LaidOut> laid_out_;       ///< The best one, as of the last layout.
   MetricalMap metrical_;                  ///< Of that hypothesis.
   std::map<VisitId, std::string> names_;  ///< Given by people, to the place of a visit.
   OperatorLog operator_log_;

@@ -5,6 +5,7 @@
 
 #include "base/check.hpp"
 #include "layout/exclusion.hpp"
+#include "service/live_hypothesis.hpp"
 #include "service/pipeline.hpp"
 
 namespace cairn {
@@ -112,15 +113,15 @@ void MappingService::Pipeline::anchor_robot() {
   }
 }
 
-std::vector<PosedScan> MappingService::Pipeline::trajectory() const {
+std::vector<PosedScan> MappingService::Pipeline::trajectory(const MetricalMap& metrical) const {
   const std::vector<PerceivedScan>& scans = experience_.scans();
   std::vector<PosedScan> posed;
   posed.reserve(scans.size());
   for (std::size_t i = 0; i < scans.size(); ++i) {
     posed.push_back({scans[i].scan,
-                     i < metrical_.trajectory.size()
-                         ? metrical_.trajectory[i]
-                         : metrical_.T_global_lpm * scans[i].fix.T_lpm_robot,
+                     i < metrical.trajectory.size()
+                         ? metrical.trajectory[i]
+                         : metrical.T_global_lpm * scans[i].fix.T_lpm_robot,
                      scans[i].is_trusted});
   }
   return posed;
@@ -139,44 +140,70 @@ int MappingService::Pipeline::nearest_place(const Vector2d& p_global, double* di
   return nearest;
 }
 
-std::shared_ptr<const MapState> MappingService::Pipeline::state() const {
+std::shared_ptr<MapState> MappingService::Pipeline::picture_of(const MetricalMap& metrical) const {
   auto state = std::make_shared<MapState>();
   const std::vector<PerceivedScan>& scans = experience_.scans();
   state->topology_revision = revision_;
   state->visit_count = static_cast<std::int64_t>(experience_.visits().size());
-  state->T_global_lpm = metrical_.T_global_lpm;
+  state->T_global_lpm = metrical.T_global_lpm;
   state->key_scans = experience_.key_scans();
-  state->trajectory = trajectory();
+  state->trajectory = trajectory(metrical);
   state->poses = with_poses_between(scans, state->trajectory);
   if (!scans.empty()) {
     state->time = scans.back().fix.time;
   }
+  return state;
+}
+
+std::shared_ptr<const MapState> MappingService::Pipeline::state() const {
+  std::shared_ptr<MapState> state = picture_of(metrical_);
   if (laid_out_) {
-    tell_best_map(state.get());
+    tell_map(*laid_out_, metrical_, state.get());
     tell_hypotheses(state.get());
   }
   return state;
 }
 
-/// @pre it is laid out
-void MappingService::Pipeline::tell_best_map(MapState* state) const {
-  const LaidOut& best = *laid_out_;
-  state->hypothesis = best.id.value;
-  state->at_place = best.map.position().place.value;
-  state->path_count = best.map.path_count();
-  state->closure_count = best.map.closure_count();
-  for (int v = 0; v < best.map.visit_count(); ++v) {
-    state->place_of_visit.push_back(best.map.at_visit(VisitId{v}).place.value);
+Result<std::shared_ptr<const MapState>> MappingService::Pipeline::state_of(
+    std::int64_t hypothesis) const {
+  const Result<LiveHypothesis> live = live_hypothesis(tree_, hypothesis);
+  if (!live) {
+    return live.error();
   }
-  state->places = mapped_places(best.map, experience_, metrical_);
-  state->same_places = same_places(best.map, experience_, matcher_);
+  const LaidOut laid_out{live->id, tree_.map(live->id)};
+  const Result<MetricalMap> metrical =
+      metrical_map(laid_out.map, experience_, matcher_, options_.layout);
+  if (!metrical) {
+    return Error{metrical.error().code, "the layout of hypothesis " + std::to_string(hypothesis) +
+                                            ": " + metrical.error().message};
+  }
+  std::shared_ptr<MapState> state = picture_of(*metrical);
+  tell_map(laid_out, *metrical, state.get());
+  tell_hypotheses(state.get());
+  state->probability = live->probability;
+  return std::shared_ptr<const MapState>(std::move(state));
+}
+
+void MappingService::Pipeline::tell_map(const LaidOut& laid_out,
+                                        const MetricalMap& metrical,
+                                        MapState* state) const {
+  const TopologicalMap& map = laid_out.map;
+  state->hypothesis = laid_out.id.value;
+  state->at_place = map.position().place.value;
+  state->path_count = map.path_count();
+  state->closure_count = map.closure_count();
+  for (int v = 0; v < map.visit_count(); ++v) {
+    state->place_of_visit.push_back(map.at_visit(VisitId{v}).place.value);
+  }
+  state->places = mapped_places(map, experience_, metrical);
+  state->same_places = same_places(map, experience_, matcher_);
   for (const auto& [visit, name] : names_) {
     if (visit.index() < state->place_of_visit.size()) {
       state->places[static_cast<std::size_t>(state->place_of_visit[visit.index()])].name = name;
     }
   }
-  state->travels = matcher_.constraints(best.map);
-  state->segments = mapped_segments(best.map, experience_, metrical_.layout, state->travels);
+  state->travels = matcher_.constraints(map);
+  state->segments = mapped_segments(map, experience_, metrical.layout, state->travels);
 }
 
 void MappingService::Pipeline::tell_hypotheses(MapState* state) const {

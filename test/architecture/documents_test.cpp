@@ -55,9 +55,10 @@ TEST(Messages, EveryFloatingFieldSaysItsUnit) {
 }
 
 TEST(Messages, UtimeComesFirstInEveryMessageOnTheBus) {
-  for (const std::string name : {"laser_scan_t", "odometry_t", "sonar_ring_t", "status_t", "pose_t",
-                                 "place_event_t", "frame_change_t", "topology_t", "hypotheses_t",
-                                 "map_delta_t", "snapshot_chunk_t", "rpc_header_t"}) {
+  for (const std::string name :
+       {"laser_scan_t", "odometry_t", "sonar_ring_t", "status_t", "pose_t", "place_event_t",
+        "frame_change_t", "topology_t", "hypotheses_t", "hypothesis_map_t", "map_delta_t",
+        "snapshot_chunk_t", "rpc_header_t"}) {
     const std::string text = test::content_of(kSource / "lcmtypes/cairn_lcm" / (name + ".lcm"));
     const auto first = text.find("int64_t utime;");
     ASSERT_NE(first, std::string::npos) << name;

@@ -18,6 +18,7 @@
 #include <cairn_lcm/gateway_t.hpp>
 #include <cairn_lcm/grid_map_t.hpp>
 #include <cairn_lcm/hypotheses_t.hpp>
+#include <cairn_lcm/hypothesis_map_t.hpp>
 #include <cairn_lcm/laser_scan_t.hpp>
 #include <cairn_lcm/map_delta_t.hpp>
 #include <cairn_lcm/name_request_t.hpp>
@@ -341,6 +342,16 @@ inline cairn_lcm::trajectory_t sample() {
   message.key_utime = {1};
   message.num_covariance_entries = 6;
   message.covariance_m2_rad2 = {0.1, 0.0, 0.1, 0.0, 0.0, 0.1};
+  return message;
+}
+
+template <>
+inline cairn_lcm::hypothesis_map_t sample() {
+  cairn_lcm::hypothesis_map_t message{};
+  message.topology = sample<cairn_lcm::topology_t>();
+  message.global_map = sample<cairn_lcm::grid_map_t>();
+  message.trajectory = sample<cairn_lcm::trajectory_t>();
+  message.visits = sample<cairn_lcm::visit_places_t>();
   return message;
 }
 

@@ -59,7 +59,12 @@ class FakeDaemon {
         [this](const cairn_lcm::explain_request_t& request) { explain(request); });
     subscribe<cairn_lcm::snapshot_request_t>(
         bus, "CAIRN_REQUEST_SNAPSHOT", [this](const cairn_lcm::snapshot_request_t& request) {
-          if (!server_.on_request(steady_us(), request)) {
+          if (server_.on_request(steady_us(), request)) {
+            return;
+          }
+          if (request.what == cairn_lcm::snapshot_request_t::HYPOTHESIS_MAP) {
+            draw(request);
+          } else {
             refuse(request.header, cairn_lcm::result_t::NOT_FOUND, "nothing mapped yet");
           }
         });
@@ -134,6 +139,19 @@ class FakeDaemon {
     bus_.publish("CAIRN_ASSERTION", report);
   }
 
+  /// Takes its time with the map of hypothesis 8; for others it has none.
+  void draw(const cairn_lcm::snapshot_request_t& request) {
+    if (request.hypothesis_id != 8) {
+      refuse(request.header, answer_to_others, "hypothesis 99 is not live; expected one of 3, 8");
+    } else if (++maps_asked_ < 3) {
+      refuse(request.header, cairn_lcm::result_t::ACCEPTED, "");
+    } else {
+      const cairn_lcm::hypothesis_map_t map = sample_hypothesis_map();
+      server_.offer_hypothesis_map(steady_us(), 8,
+                                   {map.map_id, map.revision, wire::to_document(map)});
+    }
+  }
+
   void show(const cairn_lcm::perception_request_t& request) {
     if (request.visit < 0 || request.visit >= sample_visits().num_visits) {
       refuse(request.header, cairn_lcm::result_t::NOT_FOUND, "there is no such visit");
@@ -173,6 +191,8 @@ class FakeDaemon {
   std::function<void(const cairn_lcm::plan_request_t&)> answer_plan;
   cairn_lcm::assert_request_t heard_{};
   int asserts_heard_ = 0;
+  int maps_asked_ = 0;
+  std::int32_t answer_to_others = cairn_lcm::result_t::NOT_FOUND;
   int plan_requests_ = 0;
   std::int64_t newest_event_ = 0;
   int lose_every_ = 1'000'000;

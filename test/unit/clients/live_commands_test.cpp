@@ -21,6 +21,7 @@ using test::TemporaryFolder;
 using Outcome = test::ProgramRun;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// Calls something again and again on a thread of its own.
 class Loop {
@@ -113,6 +114,42 @@ TEST_F(LiveCommands, DrawTheSamePlacesAsFromTheFile) {
   EXPECT_EQ(content_of(folder / "live" / "place-1-visit-5.png"),
             content_of(folder / "file" / "place-1-visit-5.png"));
   EXPECT_EQ(run({"map", "--places", "--png", (folder / "m.png").string()}).status, 0);
+}
+
+TEST_F(LiveCommands, ShowAnotherHypothesisThanTheBestWhereItIsAskedFor) {
+  const TemporaryFolder folder;
+  const std::string svg = (folder / "m.svg").string();
+  const std::string pgm = (folder / "m.pgm").string();
+
+  const Outcome map = run({"map", "--hypothesis", "8", "--svg", svg, "--pgm", pgm, "--png",
+                           (folder / "m.png").string(), "--trajectory", "--places"});
+
+  EXPECT_EQ(map.status, 0) << map.err;
+  EXPECT_THAT(map.err, HasSubstr("hypothesis 8, probability 0.250"));
+  EXPECT_THAT(content_of(svg), HasSubstr("annexe"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "m.yaml"));
+  EXPECT_THAT(run({"places", "--hypothesis", "8"}).out, HasSubstr("annexe"));
+  EXPECT_EQ(run({"export", "--hypothesis", "8", "--trajectory", (folder / "t").string()}).status,
+            0);
+  EXPECT_THAT(run({"places"}).out, Not(HasSubstr("annexe")));
+}
+
+TEST_F(LiveCommands, AHypothesisThatIsNotLiveIsBadDataAndNoNumberIsUsage) {
+  const Outcome unknown = run({"map", "--hypothesis", "99", "--png", "/dev/null"});
+  EXPECT_EQ(unknown.status, 65);
+  EXPECT_THAT(unknown.err, HasSubstr("hypothesis 99 is not live; expected one of 3, 8"));
+
+  const Outcome word = run({"map", "--hypothesis", "best", "--png", "/dev/null"});
+  EXPECT_EQ(word.status, 64);
+  EXPECT_THAT(word.err, HasSubstr("expected a whole number"));
+  EXPECT_EQ(run({"map", "--hypothesis", "-1", "--png", "/dev/null"}).status, 64);
+}
+
+TEST_F(LiveCommands, ADaemonThatDrawsAnotherHypothesisIsWaitedForAndThenLeft) {
+  daemon_.answer_to_others = cairn_lcm::result_t::BUSY;
+  const Outcome busy = run({"map", "--hypothesis", "99", "--png", "/dev/null", "--timeout", "0.3"});
+  EXPECT_EQ(busy.status, 69);
+  EXPECT_THAT(busy.err, HasSubstr("the daemon is busy: "));
 }
 
 TEST_F(LiveCommands, ATrajectoryThatTheDaemonDoesNotHaveIsBadData) {

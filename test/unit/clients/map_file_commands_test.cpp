@@ -281,6 +281,29 @@ TEST_F(MapFileCommands, GraphFilesNameEveryPlaceAndEdge) {
                     HasSubstr("class=\"pending\""), HasSubstr(" m</text>")));
 }
 
+TEST_F(MapFileCommands, TheBestHypothesisByItsNumberIsTheMapOfTheFile) {
+  const auto draw = [&](const char* name, std::vector<std::string> more) {
+    more.insert(more.begin(), {"map", "--trajectory", "--png", output(name), map_});
+    return run(more);
+  };
+  ASSERT_EQ(draw("best.png", {}).status, 0);
+  const Outcome third = draw("3.png", {"--hypothesis", "3"});
+  EXPECT_EQ(third.status, 0) << third.err;
+  EXPECT_EQ(content_of(output("3.png")), content_of(output("best.png")));
+}
+
+TEST_F(MapFileCommands, AnotherHypothesisNeedsADaemonAndAnUnknownOneIsSaidToBeThat) {
+  const Outcome other = run({"map", "--hypothesis", "8", "--png", output("8.png"), map_});
+  EXPECT_EQ(other.status, 65);
+  EXPECT_THAT(other.err, AllOf(HasSubstr("best hypothesis only, which is 3, not that of 8"),
+                               HasSubstr("run cairnd --map with this file")));
+  EXPECT_FALSE(std::filesystem::exists(output("8.png")));
+
+  const Outcome unknown = run({"map", "--hypothesis", "99", "--png", output("99.png"), map_});
+  EXPECT_EQ(unknown.status, 65);
+  EXPECT_THAT(unknown.err, HasSubstr("no live hypothesis 99; expected one of 3, 8"));
+}
+
 TEST_F(MapFileCommands, PlanningFromAFileSaysThatItNeedsADaemon) {
   const Outcome path = run({"path", "--to", "3", map_});
 

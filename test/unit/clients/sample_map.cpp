@@ -325,6 +325,21 @@ cairn_lcm::perceived_place_t sample_perceived(std::int64_t visit) {
   return p;
 }
 
+cairn_lcm::hypothesis_map_t sample_hypothesis_map() {
+  cairn_lcm::hypothesis_map_t map{};
+  map.map_id = 7;
+  map.revision = 12;
+  map.hypothesis_id = 8;
+  map.topology = sample_topology();
+  map.topology.hypothesis_id = 8;
+  map.topology.probability = 0.25;
+  map.topology.places.back().name = "annexe";
+  map.global_map = sample_grid();
+  map.trajectory = sample_trajectory();
+  map.visits = sample_visits();
+  return map;
+}
+
 void write_sample_map(const std::filesystem::path& path) {
   test::run_sql(path,
                 "PRAGMA journal_mode = WAL;"

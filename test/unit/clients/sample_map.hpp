@@ -6,6 +6,7 @@
 #include <cairn_lcm/assertions_t.hpp>
 #include <cairn_lcm/grid_map_t.hpp>
 #include <cairn_lcm/hypotheses_t.hpp>
+#include <cairn_lcm/hypothesis_map_t.hpp>
 #include <cairn_lcm/perceived_place_t.hpp>
 #include <cairn_lcm/status_t.hpp>
 #include <cairn_lcm/topology_t.hpp>
@@ -20,6 +21,8 @@ namespace cairn::clients {
 [[nodiscard]] cairn_lcm::grid_map_t sample_grid();
 [[nodiscard]] cairn_lcm::topology_t sample_topology();
 [[nodiscard]] cairn_lcm::hypotheses_t sample_hypotheses();
+/// Of hypothesis 8, which has the fifth place called "annexe".
+[[nodiscard]] cairn_lcm::hypothesis_map_t sample_hypothesis_map();
 /// Two, the first taken back.
 [[nodiscard]] cairn_lcm::assertions_t sample_assertions();
 [[nodiscard]] cairn_lcm::trajectory_t sample_trajectory();
