@@ -71,6 +71,7 @@ MappedLog map_log(const ClosuresRequest& request, const std::vector<ReferencePos
                {[&](LaserScan scan) { static_cast<void>(service.absorb(std::move(scan))); },
                 [&](const OdometrySample& sample) { static_cast<void>(service.absorb(sample)); },
                 {},
+                {},
                 {}});
   static_cast<void>(service.finish());
   if (service.experience().scans().empty()) {

@@ -49,14 +49,28 @@ OrderedJson json_of(const RelationErrors& errors) {
 }
 
 OrderedJson json_of(const LocalmapRun& run, const std::optional<RelationReport>& report) {
-  OrderedJson json = {
-      {"scans", run.track.size()},    {"travel_m", run.travel_m()},
-      {"refused", run.refused},       {"restarts", run.restarts},
-      {"renewals", run.renewals},     {"scan_lag_s", run.scan_lag_s},
-      {"degenerate", run.degenerate}, {"notes", run.notes},
-      {"faults", run.faults},         {"scans_without_odometry", run.joiner.scans_without_odometry},
-      {"map_bytes", run.map_bytes},   {"peak_resident_bytes", peak_resident_bytes()},
-      {"damage", run.damage}};
+  OrderedJson json = {{"scans", run.track.size()},
+                      {"travel_m", run.travel_m()},
+                      {"refused", run.refused},
+                      {"restarts", run.restarts},
+                      {"renewals", run.renewals},
+                      {"scan_lag_s", run.scan_lag_s},
+                      {"degenerate", run.degenerate},
+                      {"notes", run.notes},
+                      {"faults", run.faults},
+                      {"scans_without_odometry", run.joiner.scans_without_odometry},
+                      {"inputs",
+                       {{"refused_messages", run.refused_messages},
+                        {"last_refusal", run.last_refusal},
+                        {"laser_changes", run.laser_changes},
+                        {"duplicate_scans_dropped", run.joiner.duplicates},
+                        {"stray_stamps_dropped", run.joiner.strays},
+                        {"repeated_stamps", run.joiner.repeated},
+                        {"out_of_order", run.joiner.out_of_order},
+                        {"clock_steps", run.joiner.clock_steps}}},
+                      {"map_bytes", run.map_bytes},
+                      {"peak_resident_bytes", peak_resident_bytes()},
+                      {"damage", run.damage}};
   for (const auto& [name, times] : stages_of(run)) {
     json["cpu_ms"][name] = {{"mean", times->mean_ms()},
                             {"p50", times->quantile_ms(0.5)},
@@ -84,6 +98,24 @@ void print(const RelationErrors& errors, const std::string& which, std::ostream&
   out << "  drift " << fixed(1e3 * errors.drift_per_travel, 2) << " mm per metre travelled\n";
 }
 
+/// What was wrong with the log's messages; nothing where all was well.
+void print_inputs(const LocalmapRun& run, std::ostream& out) {
+  const auto line = [&out](const std::string& what, auto count, const std::string& more = {}) {
+    if (count > 0) {
+      out << "  input, " << what << ": " << grouped(static_cast<std::int64_t>(count)) << more
+          << '\n';
+    }
+  };
+  line("messages refused by their content", run.refused_messages,
+       "; the last by " + run.last_refusal);
+  line("changes of a laser's beams or view", run.laser_changes);
+  line("duplicate scans dropped", run.joiner.duplicates);
+  line("stray stamps dropped", run.joiner.strays);
+  line("repeated stamps", run.joiner.repeated);
+  line("scans out of order", run.joiner.out_of_order);
+  line("clock steps", run.joiner.clock_steps);
+}
+
 void print(const LocalmapRun& run, const std::optional<RelationReport>& report, std::ostream& out) {
   out << grouped(static_cast<std::int64_t>(run.track.size())) << " scans, "
       << fixed(run.travel_m(), 1) << " m; refused " << run.refused << ", restarts " << run.restarts
@@ -96,6 +128,7 @@ void print(const LocalmapRun& run, const std::optional<RelationReport>& report, 
   for (const auto& [fault, count] : run.faults) {
     out << "  odometry against scans, " << fault << ": " << grouped(count) << '\n';
   }
+  print_inputs(run, out);
   clients::Table table({"CPU ms per scan", "mean", "median", "99 %", "most"});
   for (const auto& [name, times] : stages_of(run)) {
     table.add({name, fixed(times->mean_ms(), 4), fixed(times->quantile_ms(0.5), 4),

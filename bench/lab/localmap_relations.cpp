@@ -61,8 +61,9 @@ RelationErrors summed_up(const std::vector<RelationError>& errors, const Predica
     if (counts(error)) {
       translations_m.push_back(error.translation_m);
       rotations_deg.push_back(error.rotation_deg);
-      error_m += error.translation_m;
-      travel_m += error.travel_m;
+      const bool drifts = error.travel_m >= RelationErrors::kDrifting_m;
+      error_m += drifts ? error.translation_m : 0.0;
+      travel_m += drifts ? error.travel_m : 0.0;
     }
   }
   return {static_cast<std::int64_t>(translations_m.size()), moments_of(translations_m),
@@ -107,6 +108,10 @@ std::vector<Relation> read_relations(const std::filesystem::path& file) {
                                             ": expected t1 t2 x y z roll pitch yaw");
     }
     relations.push_back(*relation);
+  }
+  if (relations.empty()) {
+    throw Failure(ExitCode::kBadData,
+                  file.string() + ": expected lines t1 t2 x y z roll pitch yaw, has none");
   }
   return relations;
 }

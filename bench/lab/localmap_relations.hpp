@@ -39,10 +39,13 @@ struct ErrorMoments {
 };
 
 struct RelationErrors {
+  static constexpr double kDrifting_m = 1.0;
   std::int64_t relations = 0;
   ErrorMoments translation_m;
   ErrorMoments rotation_deg;
-  double drift_per_travel = 0.0;  ///< Sum of translational errors by sum of travel between.
+  /// Sum of translational errors by sum of travel between, of relations at least kDrifting_m long:
+  /// between poses at one spot there is nothing to drift.
+  double drift_per_travel = 0.0;
 };
 
 /// Over all relations, over those whose ends lie within `near_m` of travel, and over those of them

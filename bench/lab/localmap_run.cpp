@@ -217,17 +217,33 @@ DaemonOptions options_from_file(const std::string& config_file) {
   return *options;
 }
 
+namespace {
+
+void count_inputs(const Inlets& inlets, LocalmapRun* run) {
+  for (const auto& [channel, counters] : inlets.counters()) {
+    const std::int64_t refused = counters.refused + counters.malformed + counters.unknown_type;
+    run->refused_messages += refused;
+    run->laser_changes += counters.laser_changes;
+    if (refused > 0) {
+      run->last_refusal = channel + ": " + counters.last_refusal;
+    }
+  }
+}
+
+}  // namespace
+
 LocalmapRun run_localmap(const std::string& log, const LocalmapSetup& setup) {
   LocalmapRun run;
   Runner runner(setup, &run);
-  run.damage = feed_log(log, setup.options,
-                        {[&](LaserScan scan) { runner.take(std::move(scan)); },
-                         [&](const OdometrySample& sample) { runner.take(sample); },
-                         [&] { runner.start_clock(); }, [&] { runner.stop_clock(); }});
+  run.damage = feed_log(
+      log, setup.options,
+      {[&](LaserScan scan) { runner.take(std::move(scan)); },
+       [&](const OdometrySample& sample) { runner.take(sample); }, [&] { runner.start_clock(); },
+       [&] { runner.stop_clock(); }, [&](const Inlets& inlets) { count_inputs(inlets, &run); }});
   runner.start_clock();
   runner.finish();
   if (run.track.empty()) {
-    refuse_without_scans(log, run.damage);
+    refuse_without_scans(log, run.damage.empty() ? run.last_refusal : run.damage);
   }
   run.poses = one_pose_per_stamp(std::move(run.poses));
   return run;

@@ -56,7 +56,10 @@ struct LocalmapRun {
   StageTimes other;  ///< Reading messages, joining scans and odometry.
   StageTimes all;
   JoinerCounters joiner;
-  std::string damage;  ///< What is wrong with the log; empty where all is well.
+  std::int64_t refused_messages = 0;  ///< By their content: they are not among the scans.
+  std::string last_refusal;           ///< Why the last of them; empty: none.
+  std::int64_t laser_changes = 0;     ///< Of a laser's beams or view.
+  std::string damage;                 ///< What is wrong with the log; empty where all is well.
 
   [[nodiscard]] double travel_m() const { return track.empty() ? 0.0 : track.back().travel_m; }
 };

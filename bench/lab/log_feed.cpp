@@ -4,7 +4,6 @@
 
 #include "clients/common/failure.hpp"
 #include "clients/common/progress.hpp"
-#include "transport/inlets.hpp"
 #include "wire/log_reader.hpp"
 
 namespace cairn::lab {
@@ -28,6 +27,9 @@ std::string feed_log(const std::string& log, const DaemonOptions& options, const
       sinks.after_message();
     }
     progress.show(reader->bytes_read(), reader->bytes_total());
+  }
+  if (sinks.at_end) {
+    sinks.at_end(inlets);
   }
   return reader->damage().value_or("");
 }

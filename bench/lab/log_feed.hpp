@@ -7,6 +7,7 @@
 #include "sensing/laser_scan.hpp"
 #include "sensing/odometry.hpp"
 #include "sensing/time.hpp"
+#include "transport/inlets.hpp"
 
 namespace cairn::lab {
 
@@ -16,6 +17,8 @@ struct LogSinks {
   std::function<void(const OdometrySample&)> odometry;
   std::function<void()> before_message;  ///< Before each message is decoded; may be empty.
   std::function<void()> after_message;
+  /// When the log has ended: what came of its messages. May be empty.
+  std::function<void(const Inlets&)> at_end;
 };
 
 /// Reads a log from its beginning to its end, with a bar on a terminal. Throws

@@ -70,6 +70,7 @@ PlacesRun run_places(const std::string& log, const DaemonOptions& options) {
                         {[&](LaserScan scan) { detecting.take(std::move(scan)); },
                          [&](const OdometrySample& sample) { detecting.take(sample); },
                          {},
+                         {},
                          {}});
   detecting.finish();
   if (run.perception.times_ms.empty()) {

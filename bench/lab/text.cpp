@@ -23,6 +23,11 @@ void check_outputs(const std::vector<std::string>& inputs,
     return a == b || std::filesystem::equivalent(a, b, unknown);
   };
   for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const std::filesystem::path folder = std::filesystem::path(outputs[i]).parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+      throw clients::Failure(clients::ExitCode::kCannotCreate,
+                             outputs[i] + ": there is no folder " + folder.string());
+    }
     for (const std::string& input : inputs) {
       if (!outputs[i].empty() && !input.empty() && is_same(outputs[i], input)) {
         throw clients::Failure(clients::ExitCode::kUsage,

@@ -89,6 +89,7 @@ TrajectoryRun run_log(const TrajectoryRequest& request, const std::vector<Relati
                {[&](LaserScan scan) { static_cast<void>(service.absorb(std::move(scan))); },
                 [&](const OdometrySample& sample) { static_cast<void>(service.absorb(sample)); },
                 {},
+                {},
                 {}});
   static_cast<void>(service.finish());
   if (service.experience().scans().empty()) {

@@ -15,6 +15,12 @@ double least_magnitude(double low, double high) {
   return low > 0.0 ? low : (high < 0.0 ? -high : 0.0);
 }
 
+/// A vector left to grow by itself takes up to twice as much.
+void resize_exactly(std::size_t size, std::vector<std::uint8_t>* level) {
+  level->reserve(size);
+  level->resize(size);
+}
+
 }  // namespace
 
 bool CorrelativeSearch::is_worse(const Candidate& a, const Candidate& b) {
@@ -46,6 +52,14 @@ void CorrelativeSearch::prepare(const DistanceField& walls,
   }
 }
 
+/// A search all around needs a hundred times as much as one nearby, and is as much seldomer.
+template <class T>
+void CorrelativeSearch::give_back(std::vector<T>* scratch) {
+  if (scratch->capacity() * sizeof(T) > kMostScratchBytes) {
+    *scratch = {};
+  }
+}
+
 std::size_t CorrelativeSearch::memory_bytes() const {
   std::size_t bytes = points_.capacity() * sizeof(Cell) + open_.capacity() * sizeof(Candidate);
   for (const std::vector<std::uint8_t>& level : pyramid_) {
@@ -61,7 +75,7 @@ void CorrelativeSearch::take_walls(const DistanceField& walls, double hit_sigma_
     const double exponent = -0.5 * static_cast<double>(squared) / (sigma_cells * sigma_cells);
     likelihood[squared] = static_cast<std::uint8_t>(std::lround(kFullScore * std::exp(exponent)));
   }
-  pyramid_[0].resize(geometry_.cell_count());
+  resize_exactly(geometry_.cell_count(), &pyramid_[0]);
   widths_[0] = geometry_.width;
   for (int y = 0; y < geometry_.height && geometry_.width > 0; ++y) {
     walls.look_up({low.x, low.y + y}, geometry_.width, likelihood,
@@ -77,7 +91,7 @@ void CorrelativeSearch::raise_level(int level) {
   const int width = (below_width + 1) / 2;
   const int height = height_of(level);
   widths_[at] = width;
-  pyramid_[at].resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  resize_exactly(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), &pyramid_[at]);
   std::uint8_t* here = pyramid_[at].data();
   for (int y = 0; y < height; ++y) {
     const std::uint8_t* const lower =
@@ -139,6 +153,8 @@ SearchResult CorrelativeSearch::find(const std::vector<SurfacePoint>& points,
                       window.center.y() + best_.y * geometry_.cell_m,
                       window.center.theta() + best_.angle * angle_step_rad_);
   result.score = likelihood_sum(best_) / (kFullScore * static_cast<double>(point_count_));
+  give_back(&points_);
+  give_back(&open_);
   return result;
 }
 

@@ -67,6 +67,8 @@ class CorrelativeSearch {
   [[nodiscard]] int height_of(int level) const {
     return (geometry_.height + (1 << level) - 1) >> level;
   }
+  template <class T>
+  static void give_back(std::vector<T>* scratch);
   void place_points(const std::vector<SurfacePoint>& points, const SearchWindow& window);
   [[nodiscard]] double bound_of(const Candidate& block, const SearchWindow& window) const;
   [[nodiscard]] double likelihood_sum(const Candidate& block) const;
@@ -83,6 +85,7 @@ class CorrelativeSearch {
   double angle_step_rad_ = 0.0;
   int range_cells_ = 0;
   std::size_t point_count_ = 0;
+  static constexpr std::size_t kMostScratchBytes = 256 * 1024;  // of each that is kept
   std::vector<Cell> points_;  // of all angles, one angle after the other
   std::vector<Candidate> open_;
   Candidate best_;

@@ -22,7 +22,8 @@ constexpr double kSearchSigma_m = 0.10;  // of the likelihood on the raster
 constexpr std::size_t kSearchReturns = 60;
 constexpr int kSearchStepLevel = 1;
 constexpr double kSearchReach_m = 7.0;
-constexpr double kUnusual = 0.15;      // so much below the usual score, a search is due
+constexpr double kFarthest_m = 16.0;  // what is farther takes memory, and lies outside of most maps
+constexpr double kUnusual = 0.15;     // so much below the usual score, a search is due
 constexpr double kVeryUnusual = 0.20;  // so much below, odometry is in doubt
 constexpr double kAgrees = 9.0;        // squared Mahalanobis: as odometry says
 constexpr double kLeastUsual = 0.8;
@@ -61,12 +62,15 @@ void ScanMatcher::choose_few() {
   const auto near =
       static_cast<std::size_t>(std::count_if(returns_.begin(), returns_.end(), is_near));
   const bool takes_all = near < returns_.size() / 2;
+  const auto is_far = [](const SurfacePoint& point) {
+    return point.p.squaredNorm() > kFarthest_m * kFarthest_m;
+  };
   const std::size_t step = 1 + (takes_all ? returns_.size() : near) / kSearchReturns;
   few_returns_.clear();
   reach_m_ = 0.0;
   std::size_t seen = 0;
   for (const SurfacePoint& point : returns_) {
-    if ((takes_all || is_near(point)) && seen++ % step == 0) {
+    if ((takes_all ? !is_far(point) : is_near(point)) && seen++ % step == 0) {
       few_returns_.push_back(point);
       reach_m_ = std::max(reach_m_, point.p.norm());
     }

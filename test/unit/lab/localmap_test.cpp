@@ -85,6 +85,26 @@ TEST(LabLocalmap, TracksALogAndJudgesItByRelations) {
   EXPECT_THAT(test::content_of(png), HasSubstr("PNG"));
 }
 
+TEST(LabLocalmap, CountsTheMessagesItRefused) {
+  const TemporaryFolder folder;
+  const std::string log = (folder / "a.clf").string();
+  std::string text = carmen_log();
+  const std::size_t line = text.find("FLASER", text.find("FLASER") + 1);
+  const std::size_t end = text.find('\n', line);
+  std::string blind = "FLASER 180";
+  for (int beam = 0; beam < 180; ++beam) {
+    blind += " 0.0";
+  }
+  text.replace(line, end - line, blind + " 0.2 0 0 0.2 0 0 101 robot 1");
+  write_file(log, text);
+  const Ran ran = run({"localmap", log, "--json"});
+  ASSERT_EQ(ran.status, 0) << ran.errors;
+  const Json inputs = Json::parse(ran.output)["inputs"];
+  EXPECT_EQ(inputs["refused_messages"], 1);
+  EXPECT_THAT(inputs["last_refusal"].get<std::string>(), HasSubstr("no range says anything"));
+  EXPECT_THAT(run({"localmap", log}).output, HasSubstr("messages refused by their content: 1"));
+}
+
 TEST(LabLocalmap, DrawsEveryVisitIntoAFolder) {
   const TemporaryFolder folder;
   const std::string log = (folder / "a.clf").string();
@@ -186,6 +206,9 @@ TEST(LabLocalmap, RefusesWhatIsNotThere) {
   const Ran ran = run({"localmap", log, "--relations", relations});
   EXPECT_EQ(ran.status, 65);
   EXPECT_THAT(ran.errors, HasSubstr("line 1"));
+  write_file(relations, "# none\n");
+  EXPECT_EQ(run({"localmap", log, "--relations", relations}).status, 65);
+  EXPECT_EQ(run({"localmap", log, "--png", (folder / "nowhere" / "a.png").string()}).status, 73);
   const std::string config = (folder / "a.json").string();
   write_file(config, R"({"lpm": {"insert_every": 1}})");
   EXPECT_EQ(run({"localmap", log, "--config", config}).status, 78);

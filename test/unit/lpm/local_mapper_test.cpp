@@ -1,6 +1,7 @@
 #include "lpm/local_mapper.hpp"
 
 #include <functional>
+#include <random>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -104,6 +105,22 @@ TEST(LocalMapper, HoldsLessThanEightMebibytes) {
   SimulatedLaser laser(furnished_room());
   drive(&mapper, &laser, 200, on_a_circle);
   EXPECT_LT(mapper.memory_bytes(), 8U * 1024U * 1024U);
+}
+
+TEST(LocalMapper, HoldsLessThanEightMebibytesWhateverItSees) {
+  LocalMapper mapper;
+  SimulatedLaser laser(furnished_room());
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> range_m(0.6F, 30.0F);
+  for (int i = 0; i < 100; ++i) {
+    JoinedScan joined{laser.scan(on_a_circle(i), 0.1 * i), on_a_circle(i)};
+    joined.scan.max_range_m = 80.0;
+    for (float& one_m : joined.scan.ranges_m) {
+      one_m = range_m(random);
+    }
+    mapper.absorb(joined);
+    ASSERT_LT(mapper.memory_bytes(), 8U * 1024U * 1024U) << i;
+  }
 }
 
 TEST(LocalMapper, DoesNotDriftAtRest) {
