@@ -11,9 +11,11 @@ namespace cairn {
 /// How a laser's scans are laid out.
 struct LaserShape {
   std::size_t beams = 0;
-  /// From the rightmost to the leftmost beam that states anything, and something else than that
-  /// there is a cover before it: a sensor of which one half is blind sees less than its beams span.
+  /// From the rightmost to the leftmost beam that states anything: a sensor of which one half has
+  /// gone blind sees less than its beams span.
   double view_rad = 0.0;
+  /// The same of beams that say something else than that there is a cover before the laser.
+  double open_view_rad = 0.0;
 };
 
 /// As in "181 beams over 180 degrees".
@@ -30,8 +32,10 @@ class LaserShapeWatch {
   static constexpr int kPersistence = 10;
   /// Alike are beams whose numbers differ by less than this factor,
   static constexpr double kBeamsFactor = 1.25;
-  /// and views that differ by less than this.
+  /// and views that differ by less than this,
   static constexpr double kViewTolerance_rad = 0.35;
+  /// and those beside a cover by less than this: a robot that stands at a wall has one, too.
+  static constexpr double kOpenViewTolerance_rad = 1.0;
 
   /// @param scan the next one of that laser
   /// @return what changed, for people, once for each change
