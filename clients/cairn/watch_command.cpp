@@ -3,6 +3,7 @@
 #include <cstring>
 #include <tuple>
 
+#include <cairn_lcm/frame_change_t.hpp>
 #include <cairn_lcm/place_event_t.hpp>
 #include <cairn_lcm/pose_t.hpp>
 
@@ -52,6 +53,11 @@ class Watcher {
                                           is_heard_ = true;
                                           events_.on_event(event);
                                         });
+    subscribe<cairn_lcm::frame_change_t>(link_.bus(), "CAIRN_FRAME_CHANGE",
+                                         [this](const cairn_lcm::frame_change_t& change) {
+                                           is_heard_ = true;
+                                           on_frame_change(change);
+                                         });
     subscribe<cairn_lcm::pose_t>(link_.bus(), "CAIRN_POSE", [this](const cairn_lcm::pose_t& pose) {
       is_heard_ = true;
       on_pose(pose);
@@ -122,6 +128,16 @@ class Watcher {
     print(event.utime, "event", text, to_json(event));
   }
 
+  void on_frame_change(const cairn_lcm::frame_change_t& change) {
+    print(change.utime, "moved",
+          "map " + std::to_string(change.older_revision) + " to " +
+              std::to_string(change.newer_revision) + ": " +
+              std::to_string(change.place_id.size()) + " places, by " +
+              fixed(change.largest_move_m, 2) + " m at most; the robot by " +
+              pose_text(change.robot_dx_m, change.robot_dy_m, change.robot_dtheta_rad),
+          to_json(change));
+  }
+
   void on_status(const cairn_lcm::status_t& status) {
     events_.on_status(status.boot_id, status.event_number);
     const auto key = std::make_tuple(status.boot_id, status.state, status.reason, status.num_places,
@@ -189,8 +205,8 @@ class Watcher {
 }  // namespace
 
 void add_watch_command(CLI::App& app, const Streams& streams) {
-  CLI::App* command =
-      app.add_subcommand("watch", "One line for each change of state, event and step of the robot");
+  CLI::App* command = app.add_subcommand(
+      "watch", "One line for each change of state, event, move of the map and step of the robot");
   const auto options = std::make_shared<WatchOptions>();
   command->add_option("--count", options->count, "Stop after that many lines [until Ctrl-C]")
       ->check(CLI::PositiveNumber);

@@ -198,6 +198,26 @@ Json to_json(const cairn_lcm::place_event_t& event) {
           {"reason", event.reason}};
 }
 
+Json to_json(const cairn_lcm::frame_change_t& change) {
+  Json places = Json::array();
+  for (std::size_t i = 0; i < change.place_id.size(); ++i) {
+    places.push_back({{"place_id", change.place_id[i]},
+                      {"dx_m", number(change.dx_m[i])},
+                      {"dy_m", number(change.dy_m[i])},
+                      {"dtheta_rad", number(change.dtheta_rad[i])}});
+  }
+  return {{"utime", change.utime},
+          {"boot_id", change.boot_id},
+          {"map_id", change.map_id},
+          {"older_revision", change.older_revision},
+          {"newer_revision", change.newer_revision},
+          {"robot_dx_m", number(change.robot_dx_m)},
+          {"robot_dy_m", number(change.robot_dy_m)},
+          {"robot_dtheta_rad", number(change.robot_dtheta_rad)},
+          {"largest_move_m", number(change.largest_move_m)},
+          {"places", places}};
+}
+
 Json to_json(const cairn_lcm::pose_t& pose) {
   return {{"utime", pose.utime},
           {"boot_id", pose.boot_id},

@@ -3,6 +3,7 @@
 #include <cairn_lcm/assertion_report_t.hpp>
 #include <cairn_lcm/assertions_t.hpp>
 #include <cairn_lcm/explanation_t.hpp>
+#include <cairn_lcm/frame_change_t.hpp>
 #include <cairn_lcm/hypotheses_t.hpp>
 #include <cairn_lcm/place_event_t.hpp>
 #include <cairn_lcm/plan_t.hpp>
@@ -18,6 +19,7 @@ namespace cairn::clients {
 [[nodiscard]] nlohmann::ordered_json to_json(const cairn_lcm::topology_t& topology);
 [[nodiscard]] nlohmann::ordered_json to_json(const cairn_lcm::hypotheses_t& hypotheses);
 [[nodiscard]] nlohmann::ordered_json to_json(const cairn_lcm::place_event_t& event);
+[[nodiscard]] nlohmann::ordered_json to_json(const cairn_lcm::frame_change_t& change);
 [[nodiscard]] nlohmann::ordered_json to_json(const cairn_lcm::pose_t& pose);
 [[nodiscard]] nlohmann::ordered_json to_json(const cairn_lcm::plan_t& plan);
 [[nodiscard]] nlohmann::ordered_json to_json(const cairn_lcm::assertion_report_t& report);

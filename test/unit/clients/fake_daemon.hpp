@@ -9,6 +9,7 @@
 #include <cairn_lcm/event_request_t.hpp>
 #include <cairn_lcm/explain_request_t.hpp>
 #include <cairn_lcm/explanation_t.hpp>
+#include <cairn_lcm/frame_change_t.hpp>
 #include <cairn_lcm/map_delta_t.hpp>
 #include <cairn_lcm/perception_request_t.hpp>
 #include <cairn_lcm/perception_t.hpp>
@@ -95,6 +96,7 @@ class FakeDaemon {
   void happen() {
     if (++newest_event_ % 2 == 1) {
       send_event(newest_event_);
+      send_frame_change();
     }
   }
 
@@ -205,6 +207,21 @@ class FakeDaemon {
     event.kind_name = "ENTERED";
     event.place_id = 100 + number;
     bus_.publish("CAIRN_PLACE_EVENT", event);
+  }
+
+  void send_frame_change() {
+    cairn_lcm::frame_change_t change{};
+    change.boot_id = 99;
+    change.older_revision = 6;
+    change.newer_revision = 7;
+    change.robot_dx_m = 0.25;
+    change.largest_move_m = 0.5;
+    change.num_places = 1;
+    change.place_id = {3};
+    change.dx_m = {0.5};
+    change.dy_m = {0.0};
+    change.dtheta_rad = {0.01};
+    bus_.publish("CAIRN_FRAME_CHANGE", change);
   }
 
   static wire::ReplicationServerOptions small_chunks() {

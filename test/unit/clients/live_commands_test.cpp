@@ -249,5 +249,21 @@ TEST_F(LiveCommands, WatchAsksForTheEventsThatTheBusLost) {
   EXPECT_GT(last, 0);
 }
 
+TEST_F(LiveCommands, WatchTellsThatTheMapHasMoved) {
+  EXPECT_THAT(run({"watch", "--count", "9"}).out,
+              HasSubstr("moved   map 6 to 7: 1 places, by 0.50 m at most; the robot by (0.25 m, "));
+  std::istringstream lines(run({"watch", "--count", "9", "--json"}).out);
+  bool is_told = false;
+  for (std::string line; std::getline(lines, line);) {
+    const nlohmann::json json = nlohmann::json::parse(line);
+    if (json["what"] == "moved") {
+      is_told = true;
+      EXPECT_EQ(json["message"]["places"][0]["place_id"], 3);
+      EXPECT_EQ(json["message"]["newer_revision"], 7);
+    }
+  }
+  EXPECT_TRUE(is_told);
+}
+
 }  // namespace
 }  // namespace cairn::clients
