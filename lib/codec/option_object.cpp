@@ -308,10 +308,18 @@ std::string OptionObject::table() const {
 
 Result<Json> parse_json(const std::string& text) {
   // The one place of lib/ where an exception is met: the library's own, turned into an Error here.
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
+    return Error{ErrorCode::kMalformed, "expected a JSON object, is empty"};
+  }
   try {
     return Json::parse(text, nullptr, true, true);
   } catch (const Json::exception& error) {
-    return Error{ErrorCode::kMalformed, error.what()};
+    // The library puts its own name for the error before what a person can use.
+    const std::string what = error.what();
+    const std::size_t end_of_name = what.find("] ");
+    return Error{ErrorCode::kMalformed,
+                 "expected JSON: " +
+                     (end_of_name == std::string::npos ? what : what.substr(end_of_name + 2))};
   }
 }
 

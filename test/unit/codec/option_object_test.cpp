@@ -6,6 +6,7 @@ namespace cairn {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 struct Lamp {
   double brightness = 0.5;
@@ -100,6 +101,8 @@ TEST(ParseJson, TellsWhereTextIsNoJson) {
   const Result<Json> json = parse_json("{\n\n \"a\": nope }");
   ASSERT_FALSE(json.ok());
   EXPECT_THAT(json.error().message, HasSubstr("line 3"));
+  EXPECT_THAT(json.error().message, StartsWith("expected JSON: parse error at line 3"));
+  EXPECT_EQ(parse_json(" \n").error().message, "expected a JSON object, is empty");
 }
 
 }  // namespace
