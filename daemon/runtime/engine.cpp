@@ -223,7 +223,8 @@ Result<cairn_lcm::perceived_place_t> Engine::perception(std::int64_t visit) {
       perceived ? *std::move(perceived)
                 : to_perceived_place(visits[static_cast<std::size_t>(visit)].perceived, visit,
                                      place_options_);
-  const std::vector<int>& places = service_->state()->place_of_visit;
+  const std::shared_ptr<const MapState> state = service_->state();
+  const std::vector<int>& places = state->place_of_visit;
   const auto index = static_cast<std::size_t>(visit);
   message.place_id = index < places.size() ? places[index] : -1;
   return message;
