@@ -1,6 +1,7 @@
 #include "bench/lab/pose_graph.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <set>
 #include <unordered_map>
@@ -69,10 +70,20 @@ Result<int> vertex_of(int id, int line, const VertexNumbers& numbers) {
   return found->second.first;
 }
 
+/// Two measurements never agree to the last digit: the edge was written twice.
+struct IsSameEdge {
+  const PoseGraphElement& edge;
+
+  bool operator()(const PoseGraphElement* other) const {
+    return other->from == edge.from && other->to == edge.to && other->pose == edge.pose &&
+           other->information == edge.information;
+  }
+};
+
 Status take_edges(const PoseGraphElements& elements,
                   const VertexNumbers& numbers,
                   PoseGraph* graph) {
-  std::set<std::pair<int, int>> joined;
+  std::map<std::pair<int, int>, std::vector<const PoseGraphElement*>> joined;
   for (const PoseGraphElement& edge : elements.edges) {
     const Result<int> from = vertex_of(edge.from, edge.line, numbers);
     if (!from) {
@@ -82,9 +93,14 @@ Status take_edges(const PoseGraphElements& elements,
     if (!to) {
       return to.error();
     }
-    if (!joined.insert(std::minmax(*from, *to)).second) {
-      ++graph->parallel_edges;
+    std::vector<const PoseGraphElement*>& others = joined[std::minmax(*from, *to)];
+    if (const auto same = std::find_if(others.begin(), others.end(), IsSameEdge{edge});
+        same != others.end()) {
+      return on_line(edge.line, "expected an edge of its own, got that of line " +
+                                    std::to_string((*same)->line) + " again");
     }
+    graph->parallel_edges += others.empty() ? 0 : 1;
+    others.push_back(&edge);
     graph->edges.push_back({*from, *to, edge.pose, edge.information});
     if (const Status sound = validate_displacement(travel_of(graph->edges.back()).T_from_to);
         !sound) {

@@ -33,11 +33,13 @@ struct PoseGraph {
 
 /// Reads the 2D pose graphs of g2o (VERTEX_SE2, EDGE_SE2, FIX) and TORO (VERTEX2, EDGE2, whose
 /// information stands in the order xx xy yy tt xt yt). Blank lines and lines that begin with '#'
-/// are skipped. Several edges between two vertices are several measurements, and all count.
+/// are skipped. Several edges between two vertices are several measurements, and all count; the
+/// very same one twice is an error.
 ///
 /// Errors, kMalformed or kInvalidValue, say on which line what was expected and what came: other
 /// elements, words too few or too many, what is no number or not finite, ids that are negative,
-/// repeated or of no vertex (where the file has vertices), edges from a vertex to itself,
+/// repeated or of no vertex (where the file has vertices), edges from a vertex to itself
+/// or written twice,
 /// information that is not positive definite, a second fixed vertex, a graph in several pieces, and
 /// a file with nothing in it.
 [[nodiscard]] Result<PoseGraph> parse_pose_graph(std::string_view text);

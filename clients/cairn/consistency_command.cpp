@@ -62,7 +62,8 @@ std::string conclusion_of(const std::vector<CheckedSegment>& segments) {
     return "nothing checks anything yet: no loop is closed";
   }
   if (doubtful == 0) {
-    return "all agree to within " + fixed(kDoubtful_sigmas, 0) + " sigmas";
+    return "all agree to within " + fixed(kDoubtful_sigmas, 0) +
+           " sigmas; 0.0: at least as well as every second travel would by chance";
   }
   return std::to_string(doubtful) + " of " + std::to_string(segments.size()) +
          " disagree by 3 sigmas or more, one in 740 by chance; see `cairn why --visit N`";

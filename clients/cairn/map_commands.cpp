@@ -1,3 +1,5 @@
+#include <utility>
+
 #include <cairn_lcm/grid_map_t.hpp>
 
 #include "clients/cairn/commands.hpp"
@@ -44,6 +46,13 @@ void note_hypothesis(const SourceOptions& options, MapSource& source, const Stre
 void write_map(const MapOptions& options, const Streams& streams) {
   if (options.png.empty() && options.pgm.empty() && options.svg.empty()) {
     throw Failure(ExitCode::kUsage, "map: name at least one output: --png, --pgm or --svg");
+  }
+  for (const auto& [one, other] :
+       {std::pair(&options.png, &options.pgm), std::pair(&options.png, &options.svg),
+        std::pair(&options.pgm, &options.svg)}) {
+    if (!one->empty() && *one == *other) {
+      throw Failure(ExitCode::kUsage, "map: " + *one + " is to be written twice: choose two names");
+    }
   }
   if (options.with_trajectory && options.png.empty()) {
     throw Failure(ExitCode::kUsage, "map: --trajectory is drawn into a picture: add --png FILE");

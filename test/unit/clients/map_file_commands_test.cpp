@@ -311,6 +311,12 @@ TEST_F(MapFileCommands, PlanningFromAFileSaysThatItNeedsADaemon) {
   EXPECT_THAT(path.err, HasSubstr("planning needs a running daemon: start `cairnd --map "));
 }
 
+TEST_F(MapFileCommands, OneFileIsNotWrittenTwice) {
+  const Outcome map = run({"map", map_, "--png", output("same"), "--svg", output("same")});
+  EXPECT_EQ(map.status, 64);
+  EXPECT_THAT(map.err, HasSubstr("is to be written twice"));
+}
+
 TEST_F(MapFileCommands, AFileThatIsNoMapIsBadData) {
   std::ofstream(output("notes.txt")) << "Not a database, but long enough to look at: " << map_;
   run_sql(output("other.db"), "CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT)");

@@ -63,10 +63,18 @@ TEST(PoseGraph, WithoutVerticesThoseOfTheEdgesAreNumberedById) {
 }
 
 TEST(PoseGraph, EdgesBetweenTheSameVerticesAllCount) {
-  const Result<PoseGraph> graph = parse_pose_graph(edge(0, 1) + edge(0, 1) + edge(1, 0));
+  const Result<PoseGraph> graph =
+      parse_pose_graph(edge(0, 1) + "EDGE_SE2 0 1 1.5 0 0 1 0 0 1 0 1\n" + edge(1, 0));
   ASSERT_TRUE(graph) << graph.error().message;
   EXPECT_EQ(graph->edges.size(), 3U);
   EXPECT_EQ(graph->parallel_edges, 2);
+}
+
+TEST(PoseGraph, TheVerySameEdgeTwiceIsAnError) {
+  const Result<PoseGraph> graph = parse_pose_graph(edge(0, 1) + edge(1, 2) + edge(0, 1));
+  ASSERT_FALSE(graph);
+  EXPECT_THAT(graph.error().message,
+              HasSubstr("line 3: expected an edge of its own, got that of line 1 again"));
 }
 
 TEST(PoseGraph, OfOneVertexIsAGraph) {
