@@ -96,8 +96,7 @@ void print_inputs(std::ostream& out, const cairn_lcm::status_t& status) {
            count_of(status.scans_dropped, "dropped, ") +
            count_of(status.scans_refused, "refused, ") +
            count_of(status.scans_out_of_order, "out of order, ") +
-           count_of(status.laser_changes, "changes of the laser; last ") +
-           age(status.scan_age_ms));
+           count_of(status.laser_changes, "changes of the laser; last ") + age(status.scan_age_ms));
   line(out, "odometry",
        count_of(status.odometry_received, "received, ") +
            count_of(status.odometry_refused, "refused; last ") + age(status.odometry_age_ms) +

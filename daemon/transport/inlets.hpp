@@ -36,12 +36,12 @@ struct InletOptions {
 /// What has come of the messages of one channel.
 struct ChannelCounters {
   std::int64_t accepted = 0;
-  std::int64_t refused = 0;       ///< By their content.
-  std::int64_t in_future = 0;     ///< Stamped ahead of our clock.
-  std::int64_t malformed = 0;     ///< Bytes that are no message.
-  std::int64_t unknown_type = 0;  ///< A fingerprint nobody knows.
+  std::int64_t refused = 0;        ///< By their content.
+  std::int64_t in_future = 0;      ///< Stamped ahead of our clock.
+  std::int64_t malformed = 0;      ///< Bytes that are no message.
+  std::int64_t unknown_type = 0;   ///< A fingerprint nobody knows.
   std::int64_t laser_changes = 0;  ///< Of the beams or the view of a laser, in the midst of work.
-  std::string last_refusal;       ///< Why the last one was not accepted; empty: none yet.
+  std::string last_refusal;        ///< Why the last one was not accepted; empty: none yet.
 };
 
 /// Turns the messages of the input channels into scans, odometry and sonar rings, and counts what
