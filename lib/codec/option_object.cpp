@@ -307,10 +307,10 @@ std::string OptionObject::table() const {
 }
 
 Result<Json> parse_json(const std::string& text) {
-  // The one place of lib/ where an exception is met: the library's own, turned into an Error here.
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
     return Error{ErrorCode::kMalformed, "expected a JSON object, is empty"};
   }
+  // The one place of lib/ where an exception is met: the library's own, turned into an Error here.
   try {
     return Json::parse(text, nullptr, true, true);
   } catch (const Json::exception& error) {

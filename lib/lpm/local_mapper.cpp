@@ -73,11 +73,6 @@ bool is_unsure(const Matrix3d& covariance) {
          covariance(2, 2) > kUnsure_rad * kUnsure_rad;
 }
 
-bool is_refused(FixNote note) {
-  return note == FixNote::kBlockedSensor || note == FixNote::kNoOverlap ||
-         note == FixNote::kContradiction;
-}
-
 }  // namespace
 
 const char* to_string(FixNote note) {
@@ -98,6 +93,11 @@ const char* to_string(FixNote note) {
       return "contradiction";
   }
   return "unknown";
+}
+
+bool is_refused(FixNote note) {
+  return note == FixNote::kBlockedSensor || note == FixNote::kNoOverlap ||
+         note == FixNote::kContradiction;
 }
 
 LocalMapper::LocalMapper(const LpmOptions& options)

@@ -32,6 +32,9 @@ enum class FixNote : std::uint8_t {
 /// The name of a note, as in "no overlap".
 [[nodiscard]] const char* to_string(FixNote note);
 
+/// Whether the scan was matched with nothing, though there was something to match it with.
+[[nodiscard]] bool is_refused(FixNote note);
+
 /// Where the robot is in the local metrical map, after one scan.
 struct LocalFix {
   TimePoint time;

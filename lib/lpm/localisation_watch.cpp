@@ -15,11 +15,6 @@ constexpr double kMostPerMessage_s = 1.0;  // of silence: a longer step is the c
 constexpr double kUsualGain = 0.1;  // of the usual silence, per message
 constexpr double kUnusual = 4.0;    // times as long as usual is not usual
 
-bool is_refused(FixNote note) {
-  return note == FixNote::kBlockedSensor || note == FixNote::kNoOverlap ||
-         note == FixNote::kContradiction;
-}
-
 /// Of a point one metre from the robot's centre, where it is the largest.
 double variance_m2(const Matrix3d& covariance) {
   const Eigen::Matrix2d translation = covariance.topLeftCorner<2, 2>();

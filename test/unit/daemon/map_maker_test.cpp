@@ -27,6 +27,14 @@ TEST(ScansWorthDrawing, LeaveOutWhatAStandingRobotSeesAgain) {
               SizeIs(3));
 }
 
+TEST(ScansWorthDrawing, LeaveOutWhatIsNotToBeTrusted) {
+  std::vector<PosedScan> trajectory = poses({Pose2(), Pose2(1.0, 0, 0), Pose2(2.0, 0, 0)});
+  trajectory[1].is_trusted = false;
+  const std::vector<PosedScan> worth = scans_worth_drawing(trajectory);
+  ASSERT_THAT(worth, SizeIs(2));
+  EXPECT_EQ(worth[1].scan, trajectory[2].scan);
+}
+
 TEST(MapMaker, TellsWhichTilesChangedAndCountsARevisionForThem) {
   MapMaker maker({});
   MapState state;

@@ -28,6 +28,19 @@ TEST(KeyScanChooser, ARobotThatTurnsOnTheSpotGetsKeyScansToo) {
   EXPECT_DOUBLE_EQ(chooser.key_scans().back()->travel_m, 0.0);
 }
 
+TEST(KeyScanChooser, AScanThatIsNotToBeTrustedStandsForNoOthers) {
+  KeyScanChooser chooser;
+  const auto scan = std::make_shared<const LaserScan>();
+  const auto blind = std::make_shared<const LaserScan>();
+  const GaussianPose step{Pose2(1.0, 0, 0), 1e-6 * Matrix3d::Identity()};
+  chooser.add(scan, step);
+  chooser.add(blind, step, false);
+  chooser.add(scan, step);
+  ASSERT_EQ(chooser.key_scans().size(), 2U);
+  EXPECT_EQ(chooser.key_scans().back()->number, 2U);
+  EXPECT_DOUBLE_EQ(chooser.key_scans().back()->T_before_this.mean.x(), 2.0);
+}
+
 TEST(KeyScanChooser, CompoundsTheMotionBetweenKeyScans) {
   const test::TwoLaps laps;
   Pose2 T_first_key;

@@ -94,6 +94,19 @@ TEST(ScanJoiner, AClockStepThatTwoLasersSeeCountsOnce) {
   EXPECT_EQ(joiner.counters().clock_steps, 1U);
 }
 
+TEST(ScanJoiner, TellsHowFarOdometryWentSinceTheScanBefore) {
+  ScanJoiner joiner;
+  double time_s = 0.0;
+  for (const double x_m : {0.0, 1.0, 0.0, 1.0, 400.0, 401.0}) {
+    joiner.add(odometry(time_s++, x_m));
+  }
+  joiner.add(scan(5.0));
+  joiner.add(odometry(6.0, 401.5));
+  joiner.add(scan(6.0));
+  EXPECT_DOUBLE_EQ(joiner.next()->odom_way_m, 3.0 + 2.0 + 1.0) << "back and forth; no jump counts";
+  EXPECT_DOUBLE_EQ(joiner.next()->odom_way_m, 0.5);
+}
+
 TEST(ScanJoiner, PrefersTheSampleOfExactlyTheSameStamp) {
   ScanJoiner joiner;
   joiner.add(odometry(0.9, 9.0));
