@@ -129,6 +129,20 @@ OptionObject describe(MapMatchOptions* recognition) {
   return object;
 }
 
+OptionObject describe(RecallOptions* recall) {
+  OptionObject object("recall", "Stars of earlier visits as readings of one that looks different.");
+  object
+      .number("least_log_likelihood_ratio", &recall->least_log_likelihood_ratio, {0, 100},
+              "Of the local maps being of one place, for its star to be recalled, in nats.")
+      .number("log_penalty_difference", &recall->log_penalty_difference, {0, 100},
+              "Of each gateway that only one of both visits saw, in nats.")
+      .integer(
+          "max_visits", &recall->max_visits, {0, 1000},
+          "The earlier visits, the nearest by dead reckoning, that are compared with a new one; "
+          "0: none.");
+  return object;
+}
+
 OptionObject describe(TopologyOptions* topology) {
   OptionObject object("topology", "The tree of topological maps.");
   object.flag("planar", &topology->planar, "No path segment crosses another.")
@@ -171,6 +185,8 @@ OptionObject describe(TopologyOptions* topology) {
               "Of each gateway taken to be imagined, in nats.")
       .number("log_penalty_unnoticed", &topology->log_penalty_unnoticed, {0, 10000},
               "Of each place taken to be passed without notice, in nats.")
+      .number("log_penalty_junction", &topology->log_penalty_junction, {0, 10000},
+              "Of each junction on the way taken to be passed without notice, in nats.")
       .number("log_penalty_break", &topology->log_penalty_break, {0, 10000},
               "Of each observation left unexplained, in nats.")
       .number("blame_margin", &topology->blame_margin, {0, 10000},
@@ -277,17 +293,12 @@ std::vector<OptionObject> describe(ServiceOptions* options) {
   OptionObject topology = describe(&options->topology);
   topology.text("evidence", &options->evidence,
                 "What speaks for or against a hypothesis: place_match, layout; \"\" is strict.");
-  return {describe(&options->joiner),
-          describe(&options->lpm),
-          describe(&options->localisation),
-          describe(&options->relocalisation),
-          describe(&options->place),
-          describe(&options->recognition),
-          std::move(topology),
-          describe(&options->layout),
-          describe(&options->refinement),
-          describe(&options->global_map),
-          describe(&options->path)};
+  return {describe(&options->joiner),       describe(&options->lpm),
+          describe(&options->localisation), describe(&options->relocalisation),
+          describe(&options->place),        describe(&options->recognition),
+          describe(&options->recall),       std::move(topology),
+          describe(&options->layout),       describe(&options->refinement),
+          describe(&options->global_map),   describe(&options->path)};
 }
 
 }  // namespace cairn

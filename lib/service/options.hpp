@@ -11,6 +11,7 @@
 #include "planning/path.hpp"
 #include "refinement/trajectory_refiner.hpp"
 #include "sensing/scan_joiner.hpp"
+#include "service/recalled_readings.hpp"
 #include "service/relocaliser.hpp"
 #include "topology/topology_options.hpp"
 
@@ -24,6 +25,7 @@ struct ServiceOptions {
   RelocalisationOptions relocalisation;
   PlaceOptions place;
   MapMatchOptions recognition;  ///< Comparison of two visits' local maps.
+  RecallOptions recall;
   TopologyOptions topology;
   /// What else than stars and links speaks for or against a hypothesis: names of evidence_named(),
   /// separated by blanks; none is the papers' strict tree.
@@ -38,6 +40,10 @@ struct ServiceOptions {
     topology.noisy_stars = true;
     topology.preference = Preference::kPosterior;
     topology.log_prior_new_place = -3.0;
+    // Of recorded visits to one place not a third have equal stars, even where many are recalled.
+    topology.log_penalty_misread = 3.0;
+    topology.log_penalty_missed_gateway = 3.0;
+    topology.log_penalty_false_gateway = 4.0;
   }
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/check.hpp"
+#include "service/recalled_readings.hpp"
 #include "service/turn_around.hpp"
 
 namespace cairn {
@@ -207,6 +208,11 @@ void MappingService::Pipeline::take_up(Visit visit, Updates* updates) {
   resumed_ = false;
   enter(Stage::kTopology);
   experience_.add(visit);
+  if (recalls_stars()) {
+    for (Reading& reading : recalled_readings(experience_, matcher_, view, options_.recall)) {
+      view.others.push_back(std::move(reading));
+    }
+  }
   grow(view, updates);
   ++revision_;
   enter(Stage::kLayout);

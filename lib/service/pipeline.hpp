@@ -92,6 +92,8 @@ class MappingService::Pipeline {
   // The map: pipeline_map.cpp.
 
   [[nodiscard]] Evidence evidence() const;
+  /// Only where maps are compared, and a star may be misread.
+  [[nodiscard]] bool recalls_stars() const;
   /// The tree has been grown anew.
   void take_in(const AssertionReport& report);
   void lay_out();

@@ -1,5 +1,6 @@
 // The best map: evidence for the tree, the layout of its best hypothesis, and what is told of it.
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -16,6 +17,12 @@ constexpr std::size_t kToldHypotheses = 50;
 
 }  // namespace
 
+bool MappingService::Pipeline::recalls_stars() const {
+  const std::vector<EvidenceName> names = *evidence_named(options_.evidence);
+  return options_.topology.noisy_stars &&
+         std::find(names.begin(), names.end(), EvidenceName::kPlaceMatch) != names.end();
+}
+
 Evidence MappingService::Pipeline::evidence() const {
   Evidence evidence;
   const Result<std::vector<EvidenceName>> names = evidence_named(options_.evidence);
@@ -23,6 +30,12 @@ Evidence MappingService::Pipeline::evidence() const {
     if (name == EvidenceName::kPlaceMatch) {
       evidence.same_place = [this](SeenGateway known, SeenGateway now) {
         return matcher_.log_likelihood_ratio(known.visit, now.visit, {known.gateway, now.gateway});
+      };
+      evidence.log_prior_same = [this](VisitId known, VisitId now) {
+        return matcher_.log_prior_same(known, now);
+      };
+      evidence.is_within_reach = [this](VisitId known, VisitId now) {
+        return matcher_.is_within_reach(known, now);
       };
     } else {
       // The densities' normalisation is left out: it is the same for all maps of one experience.

@@ -1,8 +1,10 @@
 #include "service/visit_matcher.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 namespace cairn {
@@ -11,6 +13,7 @@ namespace {
 /// Where the robot is said to be at a place, it is within this of its centre.
 constexpr double kLeastWide_m = 1.0;
 constexpr double kAnyHeading_rad = 10.0;
+constexpr std::size_t kMostReckoned = 64;
 
 template <class Ways>
 std::vector<TravelConstraint> constraints_of(const Ways& ways) {
@@ -65,21 +68,51 @@ const MatchableMap& VisitMatcher::map_of(VisitId visit) const {
   return map;
 }
 
-const GaussianPose& VisitMatcher::dead_reckoned(VisitId known, VisitId visit) const {
-  const auto key = std::make_pair(known, visit);
-  const auto found = dead_reckoned_.find(key);
+GaussianPose VisitMatcher::dead_reckoned(VisitId known, VisitId visit) const {
+  const auto found = dead_reckoned_.find(visit);
   if (found != dead_reckoned_.end()) {
-    return found->second;
+    return found->second[known.index()];
   }
-  GaussianPose T_known_visit;
-  for (std::size_t i = known.index(); i < visit.index(); ++i) {
-    T_known_visit = compounded(T_known_visit, experience_.travels()[i].T_from_to);
+  std::vector<GaussianPose> T_earlier_visit(visit.index() + 1);
+  for (std::size_t earlier = visit.index(); earlier > 0; --earlier) {
+    T_earlier_visit[earlier - 1] =
+        compounded(experience_.travels()[earlier - 1].T_from_to, T_earlier_visit[earlier]);
   }
-  return dead_reckoned_.emplace(key, T_known_visit).first->second;
+  // Mostly it is the last visits that are asked about.
+  if (dead_reckoned_.size() == kMostReckoned) {
+    dead_reckoned_.erase(dead_reckoned_.begin());
+  }
+  return dead_reckoned_.emplace(visit, std::move(T_earlier_visit)).first->second[known.index()];
+}
+
+VisitMatcher::Spread VisitMatcher::spread_at_place(VisitId known, VisitId visit) const {
+  const GaussianPose T_known_visit = dead_reckoned(known, visit);
+  const double xx = T_known_visit.covariance(0, 0) + kPlaceReach_m * kPlaceReach_m;
+  const double xy = T_known_visit.covariance(0, 1);
+  const double yy = T_known_visit.covariance(1, 1) + kPlaceReach_m * kPlaceReach_m;
+  const Vector2d away = T_known_visit.mean.translation();
+  const double determinant = xx * yy - xy * xy;
+  return {(yy * away.x() * away.x() - 2.0 * xy * away.x() * away.y() + xx * away.y() * away.y()) /
+              determinant,
+          -0.5 * std::log(determinant) - std::log(2.0 * std::numbers::pi)};
+}
+
+bool VisitMatcher::is_within_reach(VisitId known, VisitId visit) const {
+  return spread_at_place(known, visit).chi2 < kReach_sigmas * kReach_sigmas;
+}
+
+double VisitMatcher::log_density(VisitId known, VisitId visit) const {
+  const Spread spread = spread_at_place(known, visit);
+  return spread.log_highest_density - 0.5 * spread.chi2;
+}
+
+double VisitMatcher::log_prior_same(VisitId known, VisitId visit) const {
+  return std::clamp(std::log(kPlaceArea_m2) + spread_at_place(known, visit).log_highest_density,
+                    kLeastLogPrior, 0.0);
 }
 
 double VisitMatcher::log_likelihood_ratio(VisitId known, VisitId visit, GatewayPair pair) const {
-  const GaussianPose& predicted = dead_reckoned(known, visit);
+  const GaussianPose predicted = dead_reckoned(known, visit);
   const std::vector<Visit>& visits = experience_.visits();
   const Pose2 T_known_visit = aligned_by_gateways(
       visits[known.index()].perceived, visits[visit.index()].perceived, pairs(known, visit, pair));
@@ -137,7 +170,7 @@ double VisitMatcher::chi2_of_unmatched(const TopologicalMap& map) const {
       continue;
     }
     const VisitId first = map.first_visit(map.at_visit(visit).place);
-    const GaussianPose& T_first_visit = dead_reckoned(first, visit);
+    const GaussianPose T_first_visit = dead_reckoned(first, visit);
     const double wide_m = std::max(
         kLeastWide_m, experience_.visits()[first.index()].perceived.neighbourhood.radius_m);
     // The heading in which a place is seen says nothing: its frame has that of the local map.

@@ -34,6 +34,21 @@ class VisitMatcher {
   /// and would tell it twice.
   [[nodiscard]] double log_likelihood_ratio(VisitId known, VisitId visit, GatewayPair pair) const;
 
+  /// The place frame of a visit in that of an earlier one, by the travels between them.
+  /// @pre known <= visit, which is in the experience
+  [[nodiscard]] GaussianPose dead_reckoned(VisitId known, VisitId visit) const;
+
+  /// Whether dead reckoning between two visits lets them have been to one place, within
+  /// kReach_sigmas and kPlaceReach_m.
+  [[nodiscard]] bool is_within_reach(VisitId known, VisitId visit) const;
+
+  /// Log of how densely dead reckoning expects the visit's place where the known one's is (1/m²).
+  [[nodiscard]] double log_density(VisitId known, VisitId visit) const;
+
+  /// Evidence::log_prior_same: the log of that density where it is highest, compared with one place
+  /// in kPlaceArea_m2; in [kLeastLogPrior, 0].
+  [[nodiscard]] double log_prior_same(VisitId known, VisitId visit) const;
+
   /// The place frame of a visit in the frame of the place it was to: that of the place's first
   /// visit. By dead reckoning where no gateway was seen at both.
   [[nodiscard]] GaussianPose T_place_visit(const TopologicalMap& map, VisitId visit) const;
@@ -59,6 +74,10 @@ class VisitMatcher {
   /// Dead reckoning is given this many standard deviations before it refutes. Generous: slip and
   /// pushes make it wrong by more than its covariance says.
   static constexpr double kRefutedAt_sigmas = 20.0;
+  static constexpr double kReach_sigmas = 3.0;
+  static constexpr double kPlaceReach_m = 1.0;   ///< Sigma of where in a place its origin is read.
+  static constexpr double kPlaceArea_m2 = 25.0;  ///< Of a building, one place to so much of it.
+  static constexpr double kLeastLogPrior = -6.0;
 
  private:
   [[nodiscard]] std::vector<GatewayPair> pairs(VisitId known,
@@ -73,10 +92,15 @@ class VisitMatcher {
   /// None where no gateway was seen at both visits.
   [[nodiscard]] std::optional<GaussianPose> matched_at_place(const TopologicalMap& map,
                                                              VisitId visit) const;
-  [[nodiscard]] const GaussianPose& dead_reckoned(VisitId known, VisitId visit) const;
-
   /// @return valid until two other maps were asked for
   [[nodiscard]] const MatchableMap& map_of(VisitId visit) const;
+  /// Of the visit's place by dead reckoning, as seen from the known one's, which is kPlaceReach_m
+  /// wide.
+  struct Spread {
+    double chi2 = 0.0;                 ///< Of both being one place.
+    double log_highest_density = 0.0;  ///< 1/m².
+  };
+  [[nodiscard]] Spread spread_at_place(VisitId known, VisitId visit) const;
 
   struct ReadyMap {
     MatchableMap map;
@@ -90,7 +114,8 @@ class VisitMatcher {
   mutable std::size_t bytes_ready_ = 0;
   mutable std::int64_t uses_ = 0;
   mutable std::map<std::tuple<VisitId, VisitId, GatewayPair>, Recognition> compared_;
-  mutable std::map<std::pair<VisitId, VisitId>, GaussianPose> dead_reckoned_;
+  /// By visit, then earlier visit; of the last kMostReckoned visits asked about.
+  mutable std::map<VisitId, std::vector<GaussianPose>> dead_reckoned_;
 };
 
 }  // namespace cairn

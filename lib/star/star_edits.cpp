@@ -20,6 +20,13 @@ Star without_fragment(const Star& star, std::size_t slot) {
   return rest;
 }
 
+void insert_slot(Star* star, std::size_t at, const StarSlot& slot) {
+  for (StarSlot& other : star->slots) {
+    other.partner += other.partner >= at ? 1 : 0;
+  }
+  star->slots.insert(star->slots.begin() + static_cast<std::ptrdiff_t>(at), slot);
+}
+
 }  // namespace
 
 std::optional<Star> without_gateway(const Star& star, int gateway) {
@@ -37,6 +44,22 @@ std::optional<Star> without_gateway(const Star& star, int gateway) {
     other.gateway -= other.gateway > gateway ? 1 : 0;
   }
   return rest;
+}
+
+Star with_gateway(const Star& star, int number) {
+  const std::size_t half = star.slots.size() / 2;
+  std::size_t at = number < gateway_count(star) ? slot_of_gateway(star, number) : star.slots.size();
+  const std::size_t opposite = at <= half ? at + half + 1 : at - half;
+  Star more = star;
+  for (StarSlot& slot : more.slots) {
+    slot.gateway += slot.gateway >= number ? 1 : 0;
+  }
+  insert_slot(&more, at, {number, 0, ControlLaw::kMidline});
+  insert_slot(&more, opposite, {-1, 0, ControlLaw::kDeadEnd});
+  at += opposite <= at ? 1 : 0;
+  more.slots[at].partner = opposite;
+  more.slots[opposite].partner = at;
+  return more;
 }
 
 Star rotated_to(const Star& star, int first_gateway) {

@@ -14,6 +14,11 @@ namespace cairn {
 /// @pre star is valid and has the gateway
 [[nodiscard]] std::optional<Star> without_gateway(const Star& star, int gateway);
 
+/// The star with one more gateway, which terminates at the place: it gets this number, those from
+/// there on one more. Its terminated end is put opposite.
+/// @pre star is valid; 0 <= number <= gateway_count(star)
+[[nodiscard]] Star with_gateway(const Star& star, int number);
+
 /// The same star with its slots listed, and its gateways numbered, clockwise from this gateway on.
 /// @pre star is valid and has the gateway
 [[nodiscard]] Star rotated_to(const Star& star, int first_gateway);

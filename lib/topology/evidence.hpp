@@ -30,6 +30,16 @@ struct Evidence {
   /// No answer about this visit exceeds it: makes the proven gap tight. Without it,
   /// TopologyOptions::max_log_evidence is taken, and greater answers are cut to it.
   std::function<double(VisitId visit)> same_place_bound;
+  /// Log of how likely it is, before maps are compared, that a visit was where the known one was
+  /// rather than at some other place: at most 0. The better the way between them is known, the more
+  /// it says if it ends there; how far off it ends is for `layout` to say. Where it is given, a
+  /// travel may have left or joined a path segment at a junction that nobody noticed
+  /// (TopologyOptions::log_penalty_junction). Without it, each pending gateway is as likely as
+  /// another.
+  std::function<double(VisitId known, VisitId now)> log_prior_same;
+  /// Whether two visits may have been to one place, as far as is known of the way between them.
+  /// Asked before places are looked for that no link leads to. Without it, they all are.
+  std::function<bool(VisitId known, VisitId now)> is_within_reach;
   /// Log-likelihood of the displacements between visits under the best metrical layout of the map,
   /// over all its visits (Modayil et al., IROS 2004). It must not rise when a visit is added.
   std::function<double(const TopologicalMap&)> layout;

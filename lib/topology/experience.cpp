@@ -61,6 +61,15 @@ const Star& star_of(const View& view, int reading) {
   return reading == 0 ? view.star : other_reading(view, reading).star;
 }
 
+bool is_recalled(const View& view, int reading) {
+  return reading > 0 && other_reading(view, reading).is_recalled;
+}
+
+int gateway_of_first(const View& view, int reading, int gateway) {
+  return reading == 0 ? gateway
+                      : other_reading(view, reading).gateways[static_cast<std::size_t>(gateway)];
+}
+
 int arrival_gateway_of(const View& view, int reading) {
   if (reading == 0) {
     return view.arrival_gateway;

@@ -42,6 +42,14 @@ Status validate(const View& view);
 /// @pre view is valid, 0 <= reading < reading_count(view)
 [[nodiscard]] int arrival_gateway_of(const View& view, int reading);
 
+/// Whether it was not seen, but recalled from an earlier visit.
+/// @pre 0 <= reading < reading_count(view)
+[[nodiscard]] bool is_recalled(const View& view, int reading);
+
+/// The number in the first reading of a gateway of this one; -1: the first reading lacks it.
+/// @pre view is valid, 0 <= reading < reading_count(view), which has the gateway
+[[nodiscard]] int gateway_of_first(const View& view, int reading, int gateway);
+
 /// @pre 0 <= reading < reading_count(view)
 [[nodiscard]] double log_likelihood_of(const View& view, int reading);
 

@@ -25,7 +25,7 @@ void Successors::consider_misreading(GatewayIndex departure,
   misread.log_likelihood = match.log_likelihood + recognition(target, match, arrival.visit);
   if (map_.is_pending(departure)) {
     misread.log_likelihood -= penalty_of_paths(departure, target);
-    if (!is_worth_blaming(misread.log_likelihood)) {
+    if (!is_worth_blaming(misread.log_likelihood, map_.place_of(target), arrival.visit)) {
       return;
     }
     misread.change.kind = MapChange::Kind::kLink;
@@ -34,8 +34,8 @@ void Successors::consider_misreading(GatewayIndex departure,
 }
 
 /// The robot may always have come to a new place instead.
-bool Successors::is_worth_blaming(double log_likelihood) const {
-  return log_likelihood + log_prior_of_closing() >=
+bool Successors::is_worth_blaming(double log_likelihood, PlaceId place, VisitId visit) const {
+  return log_likelihood + log_prior_of_closing(place, visit) >=
          options_->log_prior_new_place - options_->blame_margin;
 }
 
@@ -76,7 +76,7 @@ void Successors::consider_inserting(GatewayIndex departure, const Arrival& arriv
   }
   for (int reading = 0; reading < reading_count(view); ++reading) {
     const int number = arrival_gateway_of(view, reading);
-    if (!through_partner(star_of(view, reading), number)) {
+    if (is_recalled(view, reading) || !through_partner(star_of(view, reading), number)) {
       continue;
     }
     Alternative inserted;
@@ -114,20 +114,26 @@ void Successors::consider_unexplained(GatewayIndex departure, const Arrival& arr
   }
 }
 
-// Evidence says clearly that the robot is at a place which the map has elsewhere: some earlier step
-// was wrong. As long as nobody knows which, the travel stays unexplained, and the robot is where it
-// is. Only where the symbols allow nothing that evidence speaks for, and the visit is a surprise or
+// Evidence says that the robot is at a place which the map has elsewhere, and the symbols allow
+// nothing that evidence speaks for. Where the way is known, the robot has joined another path
+// segment at a junction that nobody noticed. Else some earlier step was wrong, and as long as
+// nobody knows which, the travel stays unexplained; so it may only where the visit is a surprise or
 // the map has breaks that are to be mended.
 void Successors::consider_rejoining(GatewayIndex departure, const Arrival& arrival) {
   const bool is_map_sound = rejoining_.count(arrival.visit) == 0 && map_.one_way_count() == 0;
-  if (is_map_sound || !evidence_->same_place || arrival.on_the_way != StepKind::kStart ||
+  const bool is_way_known = static_cast<bool>(evidence_->log_prior_same);
+  if (!evidence_->same_place || (is_map_sound && !is_way_known) ||
+      arrival.on_the_way != StepKind::kStart ||
       arrival.amendment.kind != MapChange::Kind::kNothing || is_recognised()) {
     return;
   }
   const Recognised likeliest = likeliest_place(arrival.visit);
-  const double log_likelihood = likeliest.log_likelihood - options_->log_penalty_break;
+  const double log_likelihood =
+      likeliest.log_likelihood -
+      (is_way_known ? options_->log_penalty_junction : options_->log_penalty_break);
+  const double threshold = is_way_known ? 0.0 : options_->recognition_threshold;
   if (likeliest.at == kNoGateway || likeliest.at == departure ||
-      likeliest.log_likelihood <= options_->recognition_threshold ||
+      likeliest.log_likelihood <= threshold ||
       log_likelihood < options_->log_prior_new_place - options_->blame_margin) {
     return;
   }
@@ -141,6 +147,31 @@ void Successors::consider_rejoining(GatewayIndex departure, const Arrival& arriv
   }
   again.log_likelihood = log_likelihood;
   add(again, arrival);
+}
+
+// The robot left the known link at a junction that nobody noticed, and came to a new place.
+void Successors::consider_branching(GatewayIndex departure, const Arrival& arrival) {
+  const View& view = arrival.view->view();
+  if (!evidence_->log_prior_same || arrival.on_the_way != StepKind::kStart ||
+      !map_.is_linked(departure) ||
+      (options_->max_places && map_.place_count() >= *options_->max_places)) {
+    return;
+  }
+  for (int reading = 0; reading < reading_count(view); ++reading) {
+    if (is_recalled(view, reading)) {
+      continue;
+    }
+    const int number = arrival_gateway_of(view, reading);
+    Alternative branched;
+    branched.kind = StepKind::kBranch;
+    branched.departure = departure;
+    branched.position = map_.end_gateway() + number;
+    branched.change = {MapChange::Kind::kStrayPlace, arrival.view->star_id(reading), arrival.visit,
+                       departure, number};
+    branched.log_likelihood = options_->log_prior_new_place + log_likelihood_of(view, reading) -
+                              options_->log_penalty_junction;
+    add(branched, arrival);
+  }
 }
 
 /// Whether evidence speaks for one of the alternatives found.

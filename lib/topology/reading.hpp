@@ -22,6 +22,9 @@ struct Reading {
   std::vector<int> gateways;
   double log_likelihood =
       0.0;  ///< Of what was perceived, given that the place has this star (nats).
+  /// Not seen, but recalled from an earlier visit: says how a place that is known already may have
+  /// looked this time. No new place has such a star.
+  bool is_recalled = false;
 };
 
 /// The gateway of the reading that is this one of the first reading, if it has it.

@@ -130,14 +130,26 @@ std::vector<int> by_gateway_of_first(const View& view,
   if (reading == 0) {
     return by_gateway;
   }
-  const std::vector<int>& first = view.others[static_cast<std::size_t>(reading - 1)].gateways;
   std::vector<int> result(static_cast<std::size_t>(gateway_count(view.star)), -1);
   for (std::size_t gateway = 0; gateway < by_gateway.size(); ++gateway) {
-    if (first[gateway] >= 0) {
-      result[static_cast<std::size_t>(first[gateway])] = by_gateway[gateway];
+    const int first = gateway_of_first(view, reading, static_cast<int>(gateway));
+    if (first >= 0) {
+      result[static_cast<std::size_t>(first)] = by_gateway[gateway];
     }
   }
   return result;
+}
+
+/// The recalled reading that looks exactly like the place. Its gateways were told apart by where
+/// they are; of a star that had to be misread, only their order is known.
+std::optional<int> recalled_like(const View& view, const Entered& place) {
+  for (int reading = 0; reading < reading_count(view); ++reading) {
+    const Entered seen = entered(view, reading);
+    if (is_recalled(view, reading) && are_alike(seen.star, seen.by, place.star, place.by)) {
+      return reading;
+    }
+  }
+  return std::nullopt;
 }
 
 int likeliest_reading(const View& view) {
@@ -183,6 +195,13 @@ ReadingMatch match_reading(const View& view,
       best.log_likelihood = own - cost_of(*how, costs);
       best.reading = reading;
       best_agreement = *how;
+    }
+  }
+  if (!best.is_possible() || best_agreement.misreading != Misreading::kNone) {
+    if (const std::optional<int> recalled = recalled_like(view, place)) {
+      best.log_likelihood = log_likelihood_of(view, *recalled);
+      best.reading = *recalled;
+      best_agreement = {};
     }
   }
   if (best.is_possible()) {

@@ -52,7 +52,8 @@ struct ReadingMatch {
 [[nodiscard]] int choice_count(const View& view, const ReadingMatch& match);
 
 /// Compares every reading of the view, entered by its arrival gateway, with the star of a place,
-/// entered by one of its own. At most one gateway may be missed or false; if without it all else is
+/// entered by one of its own. A recalled reading that is exactly alike comes before those that
+/// would have to be misread. At most one gateway may be missed or false; if without it all else is
 /// not alike (see without_gateway()), the fragments were misread too. Stars with more differences
 /// cannot be of one place. Gateways keep their clockwise order, and the arrival is the arrival.
 /// @param choice which gateway is taken for the missed or the false one

@@ -62,7 +62,8 @@ void Successors::consider_amendments(GatewayIndex departure,
     return;
   }
   const double ratio = recognition(target, match, arrival.visit);
-  if (map_.is_pending(departure) && !is_worth_blaming(ratio + match.log_likelihood)) {
+  if (map_.is_pending(departure) &&
+      !is_worth_blaming(ratio + match.log_likelihood, place, arrival.visit)) {
     return;
   }
   for (int choice = 0; choice < choice_count(arrival.view->view(), match); ++choice) {
@@ -93,7 +94,8 @@ void Successors::consider_amending(GatewayIndex departure,
   }
   amended.log_likelihood =
       amendment.log_likelihood - penalty_of_amending(amended, departure, amended.position);
-  if (!map_.is_pending(departure) || is_worth_blaming(amended.log_likelihood)) {
+  if (!map_.is_pending(departure) ||
+      is_worth_blaming(amended.log_likelihood, map_.place_of(target), arrival.visit)) {
     add(amended, arrival);
   }
 }

@@ -22,6 +22,8 @@ std::string_view name_of(StepKind kind) {
       return "place noticed late";
     case StepKind::kRejoin:
       return "rejoining";
+    case StepKind::kBranch:
+      return "branching off";
     case StepKind::kContradiction:
       return "break";
     case StepKind::kRelocated:

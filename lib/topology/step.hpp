@@ -20,16 +20,17 @@ enum class StepKind : std::uint8_t {
   /// A known place through a gateway that leads elsewhere: evidence overrules the link, or the
   /// gateway was left unexplained by a travel the other way.
   kRejoin,
+  kBranch,         ///< A new place, off a known link by a junction that nobody noticed.
   kContradiction,  ///< A place that the departing gateway should not lead to: a break.
   kRelocated,      ///< Carried, or woken up, at a known place.
   kElsewhere,      ///< Carried, or woken up, at a place that no part of the map holds.
 };
-constexpr int kStepKinds = 12;
+constexpr int kStepKinds = 13;
 
 /// Whether the step blames an observation, or leaves it unexplained.
 [[nodiscard]] constexpr bool is_contradiction(StepKind kind) {
   return kind == StepKind::kMisread || kind == StepKind::kAmended || kind == StepKind::kUnnoticed ||
-         kind == StepKind::kInserted || kind == StepKind::kRejoin ||
+         kind == StepKind::kInserted || kind == StepKind::kRejoin || kind == StepKind::kBranch ||
          kind == StepKind::kContradiction;
 }
 

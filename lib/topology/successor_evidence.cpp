@@ -59,21 +59,29 @@ Successors::Recognised Successors::likeliest_place(VisitId visit) const {
   Recognised likeliest;
   int asked_gateways = 0;
   for (PlaceId place{0}; place.value < map_.place_count(); ++place.value) {
-    const StarId star = map_.star(place);
+    if (evidence_->is_within_reach && !evidence_->is_within_reach(map_.first_visit(place), visit)) {
+      continue;
+    }
+    const double log_prior =
+        evidence_->log_prior_same ? evidence_->log_prior_same(map_.first_visit(place), visit) : 0.0;
     for (int number = 0; number < map_.gateway_count(place); ++number) {
-      if (!view.is_exact(star, number)) {
+      const ReadingMatch& match = view.match(map_.star(place), number);
+      // Where nothing is known of the way, only what looks exactly alike is no chance.
+      if (evidence_->log_prior_same ? !match.is_possible()
+                                    : !view.is_exact(map_.star(place), number)) {
         continue;
       }
       ++asked_gateways;
-      const Answers said = answers(place, view.match(star, number).gateway_of_view, visit);
-      if (likeliest.at == kNoGateway || said.all > likeliest.log_likelihood) {
+      const Answers said = answers(place, match.gateway_of_view, visit);
+      const double log_given = log_prior + match.log_likelihood;
+      if (likeliest.at == kNoGateway || said.all + log_given > likeliest.log_likelihood) {
         likeliest.at = map_.first_gateway(place) + number;
-        likeliest.log_likelihood = said.all;
+        likeliest.log_likelihood = said.all + log_given;
       }
-      likeliest.in_favour = std::max(likeliest.in_favour, said.in_favour);
+      likeliest.in_favour = std::max(likeliest.in_favour, said.in_favour + log_given);
     }
   }
-  const double log_chance = std::log(std::max(asked_gateways, 1));
+  const double log_chance = evidence_->log_prior_same ? 0.0 : std::log(std::max(asked_gateways, 1));
   likeliest.log_likelihood -= log_chance;
   likeliest.in_favour -= log_chance;
   return likeliest;

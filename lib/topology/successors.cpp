@@ -64,6 +64,7 @@ void Successors::at_known_link(GatewayIndex departure, const Arrival& arrival) {
     if (!is_exact || known.log_likelihood < 0.0) {
       consider_unnoticed(departure, arrival);
       consider_inserting(departure, arrival);
+      consider_branching(departure, arrival);
       consider_rejoining(departure, arrival);
     }
   }
@@ -157,17 +158,21 @@ void Successors::consider_closing(GatewayIndex departure,
     closure.kind = StepKind::kMisread;
     closure.misreading = Misreading::kFragments;
     closure.log_likelihood -= options_->log_penalty_misread;
-    if (!is_worth_blaming(closure.log_likelihood)) {
+    if (!is_worth_blaming(closure.log_likelihood, place, arrival.visit)) {
       return refute(refutation, closure, arrival);
     }
   }
   add(closure, arrival);
 }
 
-/// Some gateway of many matches well by chance: before evidence is asked, each is equally likely.
-double Successors::log_prior_of_closing() const {
-  const bool weighs = options_->noisy_stars && evidence_->same_place;
-  return weighs ? -std::log(std::max(map_.pending_count() - 1, 1)) : 0.0;
+/// Some gateway of many matches well by chance: before evidence is asked, each is equally likely,
+/// unless evidence tells how likely the robot is to be at the place.
+double Successors::log_prior_of_closing(PlaceId place, VisitId visit) const {
+  if (!options_->noisy_stars || !evidence_->same_place) {
+    return 0.0;
+  }
+  return evidence_->log_prior_same ? evidence_->log_prior_same(map_.first_visit(place), visit)
+                                   : -std::log(std::max(map_.pending_count() - 1, 1));
 }
 
 Refutation Successors::refutation_of_link(GatewayIndex departure, GatewayIndex target) {
@@ -184,6 +189,9 @@ Refutation Successors::refutation_of_link(GatewayIndex departure, GatewayIndex t
 void Successors::consider_new_places(GatewayIndex departure, const Arrival& arrival) {
   const View& view = arrival.view->view();
   for (int reading = 0; reading < reading_count(view); ++reading) {
+    if (is_recalled(view, reading)) {
+      continue;
+    }
     Alternative fresh;
     fresh.kind = StepKind::kNewPlace;
     fresh.departure = departure;
@@ -221,6 +229,9 @@ void Successors::woken_up(const Arrival& arrival) {
   }
   const View& view = arrival.view->view();
   for (int reading = 0; reading < reading_count(view); ++reading) {
+    if (is_recalled(view, reading)) {
+      continue;
+    }
     Alternative elsewhere;
     elsewhere.kind = StepKind::kElsewhere;
     const int number = arrival_gateway_of(view, reading);
@@ -248,7 +259,7 @@ void Successors::add(Alternative alternative, const Arrival& arrival) {
   }
   alternative.log_likelihood += arrival.log_before;
   if (alternative.change.kind == MapChange::Kind::kLink) {
-    alternative.log_likelihood += log_prior_of_closing();
+    alternative.log_likelihood += log_prior_of_closing(alternative.target.place, arrival.visit);
   }
   if (alternative.log_likelihood == -std::numeric_limits<double>::infinity()) {
     refute(Refutation::kEvidence, alternative, arrival);

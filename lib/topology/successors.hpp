@@ -85,7 +85,9 @@ class Successors {
   /// The gateway of the map, wherever it is, by which the robot came in if evidence is asked alone.
   struct Recognised {
     GatewayIndex at = kNoGateway;  ///< None looks like the view.
-    double log_likelihood = 0.0;   ///< Each gateway that looks like it being equally likely before.
+    /// Of visits, star and way; where nothing is known of the way, each gateway that looks like it
+    /// being equally likely before.
+    double log_likelihood = 0.0;
     /// The most that could be said of any if only those visits had been there that say so.
     double in_favour = 0.0;
   };
@@ -130,7 +132,7 @@ class Successors {
                         GatewayIndex target,
                         double penalty,
                         const Arrival& arrival);
-  [[nodiscard]] double log_prior_of_closing() const;
+  [[nodiscard]] double log_prior_of_closing(PlaceId place, VisitId visit) const;
   void list_other_faces(GatewayIndex departure, const Arrival& arrival);
   void consider_new_places(GatewayIndex departure, const Arrival& arrival);
   [[nodiscard]] Refutation refutation_of_link(GatewayIndex departure, GatewayIndex target);
@@ -140,7 +142,7 @@ class Successors {
                            GatewayIndex target,
                            const ReadingMatch& match,
                            const Arrival& arrival);
-  [[nodiscard]] bool is_worth_blaming(double log_likelihood) const;
+  [[nodiscard]] bool is_worth_blaming(double log_likelihood, PlaceId place, VisitId visit) const;
   [[nodiscard]] double penalty_of_paths(GatewayIndex departure, GatewayIndex target);
   [[nodiscard]] double penalty_around(PlaceId place) const;
   [[nodiscard]] double penalty_of_link(GatewayIndex departure, GatewayIndex target);
@@ -163,14 +165,15 @@ class Successors {
   [[nodiscard]] bool was_used(GatewayIndex at) const;
   void consider_unnoticed(GatewayIndex departure, const Arrival& arrival);
   void consider_inserting(GatewayIndex departure, const Arrival& arrival);
+  void consider_branching(GatewayIndex departure, const Arrival& arrival);
   void consider_unexplained(GatewayIndex departure, const Arrival& arrival);
   void consider_rejoining(GatewayIndex departure, const Arrival& arrival);
   [[nodiscard]] bool is_recognised() const;
   void consider_unseen_gateways(GatewayIndex departure, const Arrival& arrival);
-  void consider_unseen_gateway(GatewayIndex departure,
-                               GatewayIndex known,
-                               int beside,
-                               const Arrival& arrival);
+  void consider_unseen_gateways_of(GatewayIndex departure, int reading, const Arrival& arrival);
+  void consider_unseen_gateway(
+      GatewayIndex departure, GatewayIndex known, int beside, int reading, const Arrival& arrival);
+
   [[nodiscard]] GatewayIndex likeliest_gateway(PlaceId place,
                                                GatewayIndex departure,
                                                VisitId visit) const;

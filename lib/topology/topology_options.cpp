@@ -15,6 +15,7 @@ Status validate(const TopologyOptions& options) {
       .within("log_penalty_missed_gateway", options.log_penalty_missed_gateway, 0.0, 10'000.0)
       .within("log_penalty_false_gateway", options.log_penalty_false_gateway, 0.0, 10'000.0)
       .within("log_penalty_unnoticed", options.log_penalty_unnoticed, 0.0, 10'000.0)
+      .within("log_penalty_junction", options.log_penalty_junction, 0.0, 10'000.0)
       .within("log_penalty_break", options.log_penalty_break, 0.0, 10'000.0)
       .within("log_penalty_misread", options.log_penalty_misread, 0.0, 10'000.0)
       .within("blame_margin", options.blame_margin, 0.0, 10'000.0)

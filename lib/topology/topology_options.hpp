@@ -39,7 +39,10 @@ struct TopologyOptions {
   double log_penalty_missed_gateway = 5.0;  ///< Of each gateway overlooked. [0, 10000]
   double log_penalty_false_gateway = 6.5;   ///< Of each gateway seen that is not there. [0, 10000]
   double log_penalty_unnoticed = 10.0;      ///< Of each place passed without notice. [0, 10000]
-  double log_penalty_break = 16.0;          ///< Of each observation left unexplained. [0, 10000]
+  /// Of each junction that nobody noticed, where dead reckoning tells where the robot is
+  /// (Evidence::log_prior_same). [0, 10000]
+  double log_penalty_junction = 3.0;
+  double log_penalty_break = 16.0;  ///< Of each observation left unexplained. [0, 10000]
   /// A closure against what was seen is considered if it is not less likely than a new place by
   /// more than this. [0, 10000]
   double blame_margin = 8.0;

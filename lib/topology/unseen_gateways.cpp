@@ -13,13 +13,16 @@ namespace {
 
 /// For each gateway of the view its number at a place that lacks the gateway of arrival; -1: that.
 /// @param number of the gateway `beside` at the place
-std::vector<int> gateways_but_arrival(const View& view, int number, int beside) {
-  const int gateways = gateway_count(view.star);
-  std::vector<int> numbers(static_cast<std::size_t>(gateways), -1);
+std::vector<int> gateways_but_arrival(const View& view, int reading, int number, int beside) {
+  const int gateways = gateway_count(star_of(view, reading));
+  std::vector<int> numbers(static_cast<std::size_t>(gateway_count(view.star)), -1);
   for (int step = 0; step < gateways; ++step) {
     const int at = (beside + step) % gateways;
-    if (at != view.arrival_gateway) {
-      numbers[static_cast<std::size_t>(at)] = number;
+    if (at != arrival_gateway_of(view, reading)) {
+      const int first = gateway_of_first(view, reading, at);
+      if (first >= 0) {
+        numbers[static_cast<std::size_t>(first)] = number;
+      }
       number = (number + 1) % (gateways - 1);
     }
   }
@@ -31,14 +34,27 @@ std::vector<int> gateways_but_arrival(const View& view, int number, int beside) 
 // The robot came to a known place by a gateway that earlier visits missed. Without evidence nothing
 // would tell such places apart from new ones.
 void Successors::consider_unseen_gateways(GatewayIndex departure, const Arrival& arrival) {
-  const View& view = arrival.view->view();
-  if (!evidence_->same_place || cairn::gateway_count(view.star) < 2 ||
-      arrival.amendment.kind != MapChange::Kind::kNothing) {
+  if (!evidence_->same_place || arrival.amendment.kind != MapChange::Kind::kNothing) {
     return;
   }
-  const int arrived = view.arrival_gateway;
-  const int beside = (arrived + 1) % cairn::gateway_count(view.star);
-  const std::optional<Star> as_known = without_gateway(view.star, arrived);
+  for (int reading = 0; reading < reading_count(arrival.view->view()); ++reading) {
+    if (reading == 0 || is_recalled(arrival.view->view(), reading)) {
+      consider_unseen_gateways_of(departure, reading, arrival);
+    }
+  }
+}
+
+void Successors::consider_unseen_gateways_of(GatewayIndex departure,
+                                             int reading,
+                                             const Arrival& arrival) {
+  const View& view = arrival.view->view();
+  const Star& star = star_of(view, reading);
+  if (cairn::gateway_count(star) < 2) {
+    return;
+  }
+  const int arrived = arrival_gateway_of(view, reading);
+  const int beside = (arrived + 1) % cairn::gateway_count(star);
+  const std::optional<Star> as_known = without_gateway(star, arrived);
   if (!as_known) {
     return;
   }
@@ -48,38 +64,40 @@ void Successors::consider_unseen_gateways(GatewayIndex departure, const Arrival&
     const GatewayIndex first = map_.first_gateway(place);
     for (GatewayIndex at = first; at < first + map_.gateway_count(place); ++at) {
       if (map_.view_class(at) == wanted) {
-        consider_unseen_gateway(departure, at, beside, arrival);
+        consider_unseen_gateway(departure, at, beside, reading, arrival);
       }
     }
   }
 }
 
 /// @param known gateway of the place that is `beside` of the view
-void Successors::consider_unseen_gateway(GatewayIndex departure,
-                                         GatewayIndex known,
-                                         int beside,
-                                         const Arrival& arrival) {
+void Successors::consider_unseen_gateway(
+    GatewayIndex departure, GatewayIndex known, int beside, int reading, const Arrival& arrival) {
   const View& view = arrival.view->view();
+  const Star& star = star_of(view, reading);
+  const int arrived = arrival_gateway_of(view, reading);
   const PlaceId place = map_.place_of(known);
-  if (map_.gateway_count(place) + 1 != cairn::gateway_count(view.star)) {
+  if (map_.gateway_count(place) + 1 != cairn::gateway_count(star)) {
     return;
   }
   const double ratio =
-      answers(place, gateways_but_arrival(view, map_.number_of(known), beside), arrival.visit).all;
-  if (!is_worth_blaming(ratio - options_->log_penalty_missed_gateway)) {
+      answers(place, gateways_but_arrival(view, reading, map_.number_of(known), beside),
+              arrival.visit)
+          .all;
+  if (!is_worth_blaming(ratio - options_->log_penalty_missed_gateway, place, arrival.visit)) {
     return;
   }
-  const int gateways = cairn::gateway_count(view.star);
+  const int gateways = cairn::gateway_count(star);
   const int before = gateways - 1;
   // The place's gateway 0 keeps its number, so the reading is numbered from there.
   const int number = map_.number_of(known);
   int first = beside;
   for (int back = 0; back < number; ++back) {
     first = (first + gateways - 1) % gateways;
-    first = first == view.arrival_gateway ? (first + gateways - 1) % gateways : first;
+    first = first == arrived ? (first + gateways - 1) % gateways : first;
   }
-  const int inserted = (view.arrival_gateway - first + gateways) % gateways;
-  const MapChange amendment{MapChange::Kind::kOtherStar, stars_->add(rotated_to(view.star, first)),
+  const int inserted = (arrived - first + gateways) % gateways;
+  const MapChange amendment{MapChange::Kind::kOtherStar, stars_->add(rotated_to(star, first)),
                             arrival.visit, map_.first_gateway(place), inserted};
   if (map_.gateway_count(place) != before || inserted == 0 || place == map_.place_of(departure)) {
     return;
@@ -92,10 +110,10 @@ void Successors::consider_unseen_gateway(GatewayIndex departure,
   amended.amendment = amendment;
   amended.position = map_.end_gateway() + inserted;
   amended.change = {MapChange::Kind::kLink, {}, arrival.visit, departure, amended.position};
-  amended.log_likelihood =
-      ratio + view.log_likelihood - support(place) * options_->log_penalty_missed_gateway;
+  amended.log_likelihood = ratio + log_likelihood_of(view, reading) -
+                           support(place) * options_->log_penalty_missed_gateway;
   amended.log_likelihood -= penalty_of_amending(amended, departure, amended.position);
-  if (is_worth_blaming(amended.log_likelihood)) {
+  if (is_worth_blaming(amended.log_likelihood, place, arrival.visit)) {
     add(amended, arrival);
   }
 }

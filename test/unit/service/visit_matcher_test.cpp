@@ -40,10 +40,12 @@ OccupancyGrid corner_map(double box_x_m) {
 /// Visits to corners, seen one scan each, whose places lie where dead reckoning says.
 class VisitMatcherTest : public ::testing::Test {
  protected:
-  void visit(const Vector2d& p_lpm, double box_x_m = 1.0) {
+  void visit(const Vector2d& p_lpm, double box_x_m = 1.0, double variance_m2 = 1e-4) {
     const int number = static_cast<int>(experience_.visits().size());
     const Vector2d moved = number == 0 ? p_lpm : Vector2d(p_lpm - last_);
-    experience_.add(scan_at(number, Pose2(p_lpm, 0.0), Pose2(moved, 0.0)));
+    PerceivedScan scan = scan_at(number, Pose2(p_lpm, 0.0), Pose2(moved, 0.0));
+    scan.fix.motion.covariance = variance_m2 * Matrix3d::Identity();
+    experience_.add(std::move(scan));
     PlaceVisit perceived = corner_at(p_lpm);
     perceived.lpm = corner_map(box_x_m);
     experience_.add(Visit{std::move(perceived), static_cast<std::size_t>(number)});
@@ -84,6 +86,40 @@ TEST_F(VisitMatcherTest, AnswersDoNotDependOnWhatWasAskedBefore) {
   (void)matcher_.compare(VisitId{1}, VisitId{2}, {0, 1});
   EXPECT_EQ(matcher_.compare(VisitId{0}, VisitId{2}, {0, 0}).log_likelihood_ratio,
             fresh.compare(VisitId{0}, VisitId{2}, {0, 0}).log_likelihood_ratio);
+}
+
+TEST_F(VisitMatcherTest, DeadReckoningIsTheTravelsOneAfterTheOther) {
+  for (int number = 0; number < 80; ++number) {
+    visit({0.5 * number, 0.1 * number * number});
+  }
+  const auto forward = [&](int from, int to) {
+    GaussianPose T_from_to;
+    for (int travel = from; travel < to; ++travel) {
+      T_from_to =
+          compounded(T_from_to, experience_.travels()[static_cast<std::size_t>(travel)].T_from_to);
+    }
+    return T_from_to;
+  };
+  for (const int to : {79, 3, 40, 79}) {
+    const GaussianPose found = matcher_.dead_reckoned(VisitId{2}, VisitId{to});
+    const GaussianPose expected = forward(2, to);
+    EXPECT_LT((found.mean.translation() - expected.mean.translation()).norm(), 1e-9);
+    EXPECT_LT((found.covariance - expected.covariance).norm(), 1e-9);
+  }
+}
+
+TEST_F(VisitMatcherTest, AWayThatIsKnownMakesItsEndLikely) {
+  visit({0, 0});
+  visit({9, 0});
+  visit({0.5, 0});
+  EXPECT_TRUE(matcher_.is_within_reach(VisitId{0}, VisitId{2}));
+  EXPECT_FALSE(matcher_.is_within_reach(VisitId{0}, VisitId{1}));
+  EXPECT_GT(matcher_.log_density(VisitId{0}, VisitId{2}),
+            matcher_.log_density(VisitId{0}, VisitId{1}));
+  EXPECT_EQ(matcher_.log_prior_same(VisitId{0}, VisitId{2}), 0.0);
+  visit({0, 0}, 1.0, 100.0);
+  EXPECT_LT(matcher_.log_prior_same(VisitId{0}, VisitId{3}), -2.0) << "sigma of 10 m";
+  EXPECT_TRUE(matcher_.is_within_reach(VisitId{1}, VisitId{3}));
 }
 
 TEST_F(VisitMatcherTest, RefutesWhatDeadReckoningCannotReach) {

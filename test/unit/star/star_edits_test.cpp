@@ -79,6 +79,28 @@ TEST(WithoutGateway, KeepsAllOtherGatewaysAndWhereTheyLead) {
   }
 }
 
+TEST(WithGateway, ACorridorBecomesATeeAndADeadEndACorner) {
+  EXPECT_EQ(type_name(with_gateway(corridor(), 1)), "T");
+  EXPECT_EQ(type_name(with_gateway(corridor(), 2)), "T");
+  EXPECT_EQ(type_name(with_gateway(dead_end(), 1)), "L");
+}
+
+TEST(WithGateway, IsTheSameStarAgainWithoutIt) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const Star star = random_star(1 + seed % 7, random);
+    const int number = random_below(gateway_count(star) + 1, random);
+
+    const Star more = with_gateway(star, number);
+
+    ASSERT_TRUE(validate(more).ok());
+    ASSERT_EQ(gateway_count(more), gateway_count(star) + 1);
+    EXPECT_EQ(through_partner(more, number), std::nullopt);
+    EXPECT_EQ(without_gateway(more, number), star);
+  }
+}
+
 TEST(RotatedTo, NumbersClockwiseFromTheGivenGateway) {
   EXPECT_EQ(rotated_to(tee(), 0), tee());
   EXPECT_EQ(rotated_to(tee(), 2), star_of({0, -1, 1, 2}, {2, 3, 0, 1}));

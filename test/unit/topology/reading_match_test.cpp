@@ -138,6 +138,27 @@ TEST(ReadingMatch, AGatewayThatTheBestReadingLacksIsNoneOfThePlace) {
             (ReadingMatch{-1.0, Misreading::kNone, 1, 0, {1, -1, 0}}));
 }
 
+TEST(ReadingMatch, ARecalledStarIsTheOneThatItWasRecalledFrom) {
+  // Seen as a corner of two gateways, by which the robot came and left; the crossing was recalled.
+  View view = seen(corner(), 0);
+  Reading recalled{crossing(), {0, -1, 1, -1}, -2.0};
+  recalled.is_recalled = true;
+  view.others.push_back(recalled);
+  EXPECT_EQ(match_reading(view, crossing(), 2, kTolerant),
+            (ReadingMatch{-2.0, Misreading::kNone, 1, 0, {2, 0}}));
+}
+
+TEST(ReadingMatch, ARecalledStarComesBeforeAMisreadOneButAfterOneThatWasSeen) {
+  View view = seen(tee(), 0);
+  Reading recalled{crossing(), {0, 1, 2, -1}, -9.0};
+  recalled.is_recalled = true;
+  view.others.push_back(recalled);
+  EXPECT_EQ(match_reading(view, crossing(), 0, kTolerant).reading, 1) << "a missed gateway costs 5";
+  EXPECT_EQ(match_reading(view, tee(), 0, kTolerant).reading, 0);
+  view.others[0].is_recalled = false;
+  EXPECT_EQ(match_reading(view, crossing(), 0, kTolerant).reading, 0);
+}
+
 TEST(ReadingMatch, OfReadingsThatFitEquallyWellTheFirstIsTaken) {
   const Star two_bends = star_of({0, 1, 2, 3}, {1, 0, 3, 2});
   View view = seen(tee(), 1);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "arrivals.hpp"
+#include "star/star_edits.hpp"
 #include "support/stars.hpp"
 
 namespace cairn::test {
@@ -239,6 +240,83 @@ TEST(Successors, StrongEvidenceOverrulesLinksWhereASurpriseAllowsIt) {
   // One gateway of the map looks like the view, so nothing is due to chance.
   EXPECT_DOUBLE_EQ(rejoined[0].log_likelihood, 20.0 - options.log_penalty_break);
   EXPECT_EQ(walked.after(rejoined[0]).one_way_count(), 1);
+}
+
+/// The way between visits is known; so likely is each place before maps are compared.
+Evidence where_the_way_is_known(double log_ratio, double log_prior) {
+  Evidence evidence = says(log_ratio);
+  evidence.log_prior_same = [=](VisitId, VisitId) { return log_prior; };
+  return evidence;
+}
+
+TEST(Successors, AJunctionThatNobodyNoticedLeadsToAPlaceWhoseGatewayIsLinked) {
+  const TopologyOptions options = noisy();
+  Arrivals walked(corner(), 0, options, where_the_way_is_known(6.0, -1.0));
+  walked.add_place(0, dead_end(), 0).follow(0, corner(), 0);
+  // By the pending gateway 1 of place 0, to where only place 1 looks like it: by its linked
+  // gateway.
+  const auto rejoined = of_kind(walked.of(1, dead_end(), 0), StepKind::kRejoin);
+  ASSERT_THAT(rejoined, SizeIs(1));
+  EXPECT_EQ(rejoined[0].target, (GatewayRef{PlaceId{1}, 0}));
+  EXPECT_DOUBLE_EQ(rejoined[0].log_likelihood, 6.0 - 1.0 - options.log_penalty_junction);
+  EXPECT_EQ(walked.after(rejoined[0]).one_way_count(), 1) << "the link of place 1 stays";
+}
+
+TEST(Successors, AJunctionThatNobodyNoticedLeadsOffAKnownLink) {
+  const TopologyOptions options = noisy();
+  Arrivals walked(corner(), 0, options, where_the_way_is_known(-6.0, 0.0));
+  walked.add_place(0, tee(), 2);
+  const auto branched = of_kind(walked.of(0, crossing(), 1), StepKind::kBranch);
+  ASSERT_THAT(branched, SizeIs(1));
+  EXPECT_DOUBLE_EQ(branched[0].log_likelihood,
+                   options.log_prior_new_place - options.log_penalty_junction);
+  EXPECT_EQ(walked.after(branched[0]).place_count(), 3);
+  Arrivals unknown_way(corner(), 0, options, says(-6.0));
+  unknown_way.add_place(0, tee(), 2);
+  EXPECT_THAT(of_kind(unknown_way.of(0, crossing(), 1), StepKind::kBranch), IsEmpty());
+}
+
+TEST(Successors, AClosureIsAsLikelyAsTheWayMakesIt) {
+  Arrivals walked(corner(), 0, noisy(), where_the_way_is_known(0.0, -2.5));
+  walked.add_place(0, corner(), 1).add_place(1, corner(), 1);
+  EXPECT_DOUBLE_EQ(to(walked.of(1, corner(), 1), {PlaceId{0}, 1}).log_likelihood, -2.5);
+}
+
+TEST(Successors, PlacesThatNoLinkLeadsToAreLookedForWithinReach) {
+  Evidence evidence = where_the_way_is_known(6.0, 0.0);
+  evidence.is_within_reach = [](VisitId known, VisitId) { return known != VisitId{1}; };
+  Arrivals walked(corner(), 0, noisy(), evidence);
+  walked.add_place(0, dead_end(), 0).follow(0, corner(), 0);
+  for (const Alternative& rejoined : of_kind(walked.of(1, dead_end(), 0), StepKind::kRejoin)) {
+    EXPECT_NE(rejoined.target.place, PlaceId{1});
+  }
+}
+
+TEST(Successors, NoNewPlaceHasAStarThatWasRecalled) {
+  View view{corner(), 0, {}};
+  Reading recalled{crossing(), {0, 1, -1, -1}, -1.0};
+  recalled.is_recalled = true;
+  view.others.push_back(recalled);
+  Arrivals walked(corner(), 0, noisy(), where_the_way_is_known(0.0, 0.0));
+  walked.add_place(0, tee(), 2);
+  EXPECT_THAT(of_kind(walked.of(1, view), StepKind::kNewPlace), SizeIs(1));
+  EXPECT_THAT(of_kind(walked.of(0, view), StepKind::kInserted), IsEmpty());
+}
+
+TEST(Successors, ARecalledStarMayLackTheGatewayOfArrivalToo) {
+  // Place 0, a tee, is entered by a fourth gateway that its visit missed; now a corner was seen.
+  View view{corner(), 0, {}};
+  Reading recalled{with_gateway(tee(), 1), {-1, 0, 1, -1}, -1.0};
+  recalled.is_recalled = true;
+  view.others.push_back(recalled);
+  Arrivals walked(tee(), 0, noisy(), where_the_way_is_known(15.0, 0.0));
+  walked.add_place(1, corner(), 0);
+  const auto amended = of_kind(walked.of(1, view), StepKind::kAmended);
+  const auto to_place_0 = std::find_if(amended.begin(), amended.end(), [](const Alternative& one) {
+    return one.target == GatewayRef{PlaceId{0}, 1} && one.misreading == Misreading::kMissedGateway;
+  });
+  ASSERT_NE(to_place_0, amended.end());
+  EXPECT_EQ(walked.after(*to_place_0).gateway_count(PlaceId{0}), 4);
 }
 
 TEST(Successors, ACorridorOfAnEarlierContradictionMayBeTakenAgain) {
