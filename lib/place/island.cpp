@@ -43,6 +43,25 @@ const std::array<Vector2d, kRays>& ray_directions() {
   return directions;
 }
 
+constexpr std::size_t kNearCells2 = 1024;
+
+/// How many cells a ray may go on by squared clearance; mostly it is near a wall.
+double step_cells(std::int32_t squared_clearance) {
+  static const std::array<double, kNearCells2> steps = [] {
+    std::array<double, kNearCells2> all{};
+    for (std::size_t squared = 0; squared < all.size(); ++squared) {
+      all[squared] = std::max(0.5, std::sqrt(static_cast<double>(squared)) - 1.5);
+    }
+    return all;
+  }();
+  if (squared_clearance == DistanceTransform::kUnbounded) {
+    return 0.5;
+  }
+  const auto squared = static_cast<std::size_t>(squared_clearance);
+  return squared < steps.size() ? steps[squared]
+                                : std::sqrt(static_cast<double>(squared_clearance)) - 1.5;
+}
+
 /// Range of the wall in a direction; 0 where there is none in sight. Steps as far as nothing can be
 /// in the way, by the clearance.
 double range_of_wall(const LocalView& view, const Vector2d& p_map, const Vector2d& direction) {
@@ -57,10 +76,7 @@ double range_of_wall(const LocalView& view, const Vector2d& p_map, const Vector2
     if (squared == 0) {
       return view.is_wall_at(cell) ? range_m : 0.0;
     }
-    const double clear_cells = squared == DistanceTransform::kUnbounded
-                                   ? 0.0
-                                   : std::sqrt(static_cast<double>(squared)) - 1.5;
-    range_m += geometry.cell_m * std::max(0.5, clear_cells);
+    range_m += geometry.cell_m * step_cells(squared);
   }
   return 0.0;
 }

@@ -126,7 +126,9 @@ std::optional<PlaceNeighbourhood> neighbourhood_of(const LocalView& view,
       flooded_region(view, starts, lines, place.center, options.robot_width_m);
   place.is_complete = bounds.is_decided && region.is_complete;
   place.radius_m = region.radius_m;
-  place.distinctiveness = island_at(view, nearest_node(view, site, place.center)).distinctiveness;
+  if (place.is_complete) {
+    place.distinctiveness = island_at(view, nearest_node(view, site, place.center)).distinctiveness;
+  }
   // With a way still undecided the region has no bound there; only the meeting point counts then.
   place.contains_robot = bounds.is_decided ? region.contains_robot : is_near_node(view, site);
   return place;

@@ -26,9 +26,10 @@ struct PlaceNeighbourhood {
   /// Whether no cell of unknown state can be reached from the centre without leaving through a
   /// gateway or an unsure one. Unknown stretches narrower than the robot do not count.
   bool is_complete = false;
-  double radius_m = 0.0;         ///< From the centre to the farthest gateway or wall of the region.
-  double distinctiveness = 0.0;  ///< Near the centre: see place/island.hpp; [0, 1].
-  bool contains_robot = false;   ///< Whether the robot was inside when this was read.
+  double radius_m = 0.0;  ///< From the centre to the farthest gateway or wall of the region.
+  double distinctiveness =
+      0.0;  ///< Near the centre: see place/island.hpp; [0, 1]. 0 until complete.
+  bool contains_robot = false;  ///< Whether the robot was inside when this was read.
   /// Every way out that was looked at, gateway or not, and why. For people: nothing is decided by
   /// it, and the journal of visits does not have it.
   std::vector<ConsideredOpening> considered;

@@ -23,7 +23,7 @@ struct PlaceOptions {
   double driven_memory_m = 30.0;      ///< Travel for which the way driven is remembered. > 0
   double midline_below_m = 6.0;       ///< Wider passages are followed by a wall. > 0
   double min_distinctiveness = 0.05;  ///< [0, 1]
-  double recompute_after_m = 0.25;    ///< Travel between two looks at the map. >= 0
+  double recompute_after_m = 0.5;     ///< Travel between two looks at the map. >= 0
   double same_spot_m = 0.7;           ///< Two readings of one place lie less apart. > 0
   double left_beyond_m = 0.4;         ///< Distance beyond a gateway at which a place is left. > 0
   double crop_margin_m = 2.0;         ///< Of the stored map around the gateways. >= 0

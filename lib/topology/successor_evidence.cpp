@@ -45,6 +45,10 @@ Successors::Answers Successors::answers(PlaceId place,
       ++asked_visits;
     }
   }
+  if (asked_visits == 0 && evidence_->log_prior_same) {
+    // No visit saw a gateway that this one saw, so no maps are compared: it is there by chance.
+    sum.all = -std::log(std::max(map_.pending_count() - 1, 1));
+  }
   if (asked_visits > 1) {
     const double worth =
         independent_answers(asked_visits, options_->evidence_correlation) / asked_visits;
@@ -62,8 +66,7 @@ Successors::Recognised Successors::likeliest_place(VisitId visit) const {
     if (evidence_->is_within_reach && !evidence_->is_within_reach(map_.first_visit(place), visit)) {
       continue;
     }
-    const double log_prior =
-        evidence_->log_prior_same ? evidence_->log_prior_same(map_.first_visit(place), visit) : 0.0;
+    const double log_prior = evidence_->log_prior_same ? log_prior_of_closing(place, visit) : 0.0;
     for (int number = 0; number < map_.gateway_count(place); ++number) {
       const ReadingMatch& match = view.match(map_.star(place), number);
       // Where nothing is known of the way, only what looks exactly alike is no chance.

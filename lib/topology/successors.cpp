@@ -166,12 +166,14 @@ void Successors::consider_closing(GatewayIndex departure,
 }
 
 /// Some gateway of many matches well by chance: before evidence is asked, each is equally likely,
-/// unless evidence tells how likely the robot is to be at the place.
+/// those of the place where evidence tells how likely the robot is to be there, else all pending
+/// ones.
 double Successors::log_prior_of_closing(PlaceId place, VisitId visit) const {
   if (!options_->noisy_stars || !evidence_->same_place) {
     return 0.0;
   }
-  return evidence_->log_prior_same ? evidence_->log_prior_same(map_.first_visit(place), visit)
+  return evidence_->log_prior_same ? evidence_->log_prior_same(map_.first_visit(place), visit) -
+                                         std::log(map_.gateway_count(place))
                                    : -std::log(std::max(map_.pending_count() - 1, 1));
 }
 
