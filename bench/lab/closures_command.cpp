@@ -139,7 +139,7 @@ int judge_log(const ClosuresRequest& request, const Streams& streams) {
   const std::vector<ReferencePose> reference = read_reference(request.reference_file);
   const MappedLog mapped = map_log(request, reference);
   const ClosureReport report = judge_closures(mapped.visits, request.same_m);
-  if (report.visits == report.unknown) {
+  if (report.visits > 0 && report.visits == report.unknown) {
     throw Failure(ExitCode::kBadData,
                   request.reference_file + ": reaches no visit of the log; is it of another log?");
   }

@@ -72,8 +72,10 @@ void print(const IslandsRun& run, std::ostream& out) {
   const std::array<Bin, 5> bins = bins_of(run);
   for (std::size_t i = 0; i < bins.size(); ++i) {
     const double low = 0.2 * static_cast<double>(i);
+    const bool is_empty = bins[i].poses == 0;
     table.add({fixed(low, 1) + " to " + fixed(low + 0.2, 1), std::to_string(bins[i].poses),
-               fixed(bins[i].mean_m, 3), fixed(bins[i].most_m, 3)});
+               is_empty ? "-" : fixed(bins[i].mean_m, 3),
+               is_empty ? "-" : fixed(bins[i].most_m, 3)});
   }
   table.print(out);
   out << run.poses.size() << " poses; rank correlation of distinctiveness and error "

@@ -21,9 +21,9 @@ struct MapLayers {
   std::vector<cairn_lcm::perceived_place_t> perceived;
 };
 
-/// The picture of a map: walls, paths in colours, places with their ids, gateways as bars (dashed
-/// stubs where nobody knows where they lead), the robot's way, and below it a scale bar and the
-/// key.
+/// The picture of a map: walls, paths in colours (dashed where a travel led one way only), places
+/// with their ids, gateways as bars (dashed stubs where nobody knows where they lead), the robot's
+/// way, and below it a scale bar and the key.
 /// @param longest_side_pixels of the map itself, [64, 16384]
 [[nodiscard]] Canvas draw_map(const MapLayers& layers, int longest_side_pixels);
 

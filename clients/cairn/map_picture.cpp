@@ -104,6 +104,11 @@ void draw_segments(Canvas& canvas, const Viewport& view, const cairn_lcm::topolo
   }
 }
 
+bool has_broken_segment(const cairn_lcm::topology_t& topology) {
+  return std::any_of(topology.segments.begin(), topology.segments.end(),
+                     [](const cairn_lcm::segment_t& segment) { return segment.is_broken != 0; });
+}
+
 void draw_gateway(Canvas& canvas,
                   const Viewport& view,
                   const PlanarPose& middle,
@@ -207,6 +212,9 @@ void draw_footer(Canvas& canvas, const Viewport& view, const MapLayers& layers) 
   if (layers.topology) {
     key.disc("place", kPlaceColour);
     key.stroke("path", {.colour = path_colour(0), .width_pixels = 3.5});
+    if (has_broken_segment(*layers.topology)) {
+      key.stroke("one way", {.colour = path_colour(0), .width_pixels = 3.5, .dash_pixels = 6.0});
+    }
     key.stroke("gateway", {.colour = kGatewayColour, .width_pixels = 3.0});
     key.stroke("pending", {.colour = kPendingColour, .width_pixels = 2.5, .dash_pixels = 4.0});
   }
