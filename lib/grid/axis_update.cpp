@@ -13,15 +13,26 @@ namespace {
 /// To follow a change costs so many times as much by cell as to start anew.
 constexpr std::size_t kCostOfFollowing = 12;
 
+bool is_wider(CellOffset a, CellOffset b, std::int64_t dot, double max_cosine) {
+  return static_cast<double>(dot) <
+         max_cosine * Vector2d(a.dx, a.dy).norm() * Vector2d(b.dx, b.dy).norm();
+}
+
 /// Whether the angle between the basis points of two neighbours, each seen from its own cell, is
 /// larger than that of the cosine.
-bool look_apart(CellOffset a, CellOffset b, double max_cosine) {
-  const double dot = static_cast<double>(std::int64_t{a.dx} * b.dx + std::int64_t{a.dy} * b.dy);
+inline bool look_apart(CellOffset a, CellOffset b, double max_cosine) {
+  const std::int64_t dot = std::int64_t{a.dx} * b.dx + std::int64_t{a.dy} * b.dy;
   // Most neighbours look to the same wall: no roots needed.
-  if (dot >= 0.0 && max_cosine <= 0.0) {
-    return false;
-  }
-  return dot < max_cosine * Vector2d(a.dx, a.dy).norm() * Vector2d(b.dx, b.dy).norm();
+  return (dot < 0 || max_cosine > 0.0) && is_wider(a, b, dot, max_cosine);
+}
+
+/// Appends the positions of the bytes that are set, ascending.
+void list_cells(const std::uint8_t* bytes, std::size_t size, std::vector<std::uint32_t>* cells) {
+  for_each_run(bytes, 0, size, [&](std::size_t first, std::size_t last) {
+    for (std::size_t at = first; at < last; ++at) {
+      cells->push_back(static_cast<std::uint32_t>(at));
+    }
+  });
 }
 
 }  // namespace
@@ -63,18 +74,19 @@ MedialAxis AxisUpdate::next(const DistanceTransform& distances,
 void AxisUpdate::note_changes(const std::vector<std::uint32_t>& changed,
                               bool has_moved,
                               std::uint32_t width) {
-  seeds_.clear();
+  noted_.resize(members_.size(), 0);
   for (const std::uint32_t at : changed) {
     const std::uint32_t padded = at + (width + 2) + 1 + 2 * (at / width);
-    if (members_.has(padded)) {
-      seeds_.push_back(padded);
-    }
+    noted_[padded] = members_.has(padded) ? 1 : 0;
   }
   if (has_moved) {
     note_border();
   }
-  std::sort(seeds_.begin(), seeds_.end());
-  seeds_.erase(std::unique(seeds_.begin(), seeds_.end()), seeds_.end());
+  seeds_.clear();
+  list_cells(noted_.data(), noted_.size(), &seeds_);
+  for (const std::uint32_t at : seeds_) {
+    noted_[at] = 0;
+  }
 }
 
 void AxisUpdate::find_component(const DistanceTransform& distances, Cell start) {
@@ -105,7 +117,7 @@ void AxisUpdate::begin(const DistanceTransform& distances) {
       }
     }
   }
-  sort_by_clearance(distances);
+  sort_by_clearance(members_);
   thinning_.thin(order_);
 }
 
@@ -160,7 +172,7 @@ void AxisUpdate::note_border() {
   const auto size = static_cast<std::uint32_t>(members_.size());
   const auto note = [&](std::uint32_t at) {
     if (members_.has(at)) {
-      seeds_.push_back(at);
+      noted_[at] = 1;
     }
   };
   for (std::uint32_t x = 1; x + 1 < stride; ++x) {
@@ -194,54 +206,36 @@ bool AxisUpdate::is_ridge(const DistanceTransform& distances,
          is_above_before(at - 1, padded - 1) || is_above_before(at - width, padded - stride);
 }
 
-/// A counting sort; of equals the lowest index comes first. What nothing bounds comes last, in a
-/// bucket of its own.
-void AxisUpdate::sort_by_clearance(const DistanceTransform& distances) {
-  const auto width = static_cast<std::size_t>(distances.window().width);
-  const std::int32_t* const squared = distances.squared_clearances_cells().data();
+/// Puts the cells of a set in order, the least clearance first; of equals the lowest index. A
+/// counting sort; what nothing bounds comes last, in a bucket of its own.
+void AxisUpdate::sort_by_clearance(const PaddedCells& set) {
+  cells_.clear();
+  list_cells(set.data(), set.size(), &cells_);
+  const std::int32_t* const squared = thinning_.squared.data();
   std::int32_t most = 0;
-  for (const CellRun& run : component_.runs()) {
-    const std::int32_t* const row = squared + static_cast<std::size_t>(run.y) * width;
-    for (int x = run.first; x < run.last; ++x) {
-      most = row[x] == DistanceTransform::kUnbounded ? most : std::max(most, row[x]);
-    }
+  for (const std::uint32_t at : cells_) {
+    most = squared[at] == DistanceTransform::kUnbounded ? most : std::max(most, squared[at]);
   }
-  const auto bucket_of = [most](std::int32_t value) {
-    return static_cast<std::size_t>(std::min(value, most + 1));
+  const auto bucket_of = [=](std::uint32_t at) {
+    return static_cast<std::size_t>(std::min(squared[at], most + 1));
   };
   bucket_.assign(static_cast<std::size_t>(most) + 3, 0);
-  for (const CellRun& run : component_.runs()) {
-    const std::int32_t* const row = squared + static_cast<std::size_t>(run.y) * width;
-    for (int x = run.first; x < run.last; ++x) {
-      ++bucket_[bucket_of(row[x]) + 1];
-    }
+  for (const std::uint32_t at : cells_) {
+    ++bucket_[bucket_of(at) + 1];
   }
   for (std::size_t i = 1; i < bucket_.size(); ++i) {
     bucket_[i] += bucket_[i - 1];
   }
-  order_.resize(bucket_.back());
-  for (const CellRun& run : component_.runs()) {
-    const std::int32_t* const row = squared + static_cast<std::size_t>(run.y) * width;
-    const std::size_t first = members_.index_of(0, static_cast<std::size_t>(run.y));
-    for (int x = run.first; x < run.last; ++x) {
-      order_[bucket_[bucket_of(row[x])]++] =
-          static_cast<std::uint32_t>(first + static_cast<std::size_t>(x));
-    }
+  order_.resize(cells_.size());
+  for (const std::uint32_t at : cells_) {
+    order_[bucket_[bucket_of(at)]++] = at;
   }
 }
 
 /// Thins what is left to lines, and reads these as a graph.
 MedialAxis AxisUpdate::traced(const DistanceTransform& distances) {
   skeleton_ = thinning_.left();
-  order_.clear();
-  for_each_run(skeleton_.data(), 0, skeleton_.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t at = first; at < last; ++at) {
-      order_.push_back(static_cast<std::uint32_t>(at));
-    }
-  });
-  std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return thinning_.rank_of(a) < thinning_.rank_of(b);
-  });
+  sort_by_clearance(skeleton_);
   thin_lines(&order_, &skeleton_);
   if (order_.empty()) {
     return {};

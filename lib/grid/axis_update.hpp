@@ -39,7 +39,7 @@ class AxisUpdate {
   [[nodiscard]] bool is_ridge(const DistanceTransform& distances,
                               std::size_t at,
                               std::size_t padded) const;
-  void sort_by_clearance(const DistanceTransform& distances);
+  void sort_by_clearance(const PaddedCells& set);
   [[nodiscard]] MedialAxis traced(const DistanceTransform& distances);
 
   MedialAxisOptions options_;
@@ -48,7 +48,9 @@ class AxisUpdate {
   PaddedCells members_;  ///< Of the component.
   std::size_t member_count_ = 0;
   ThinningUpdate thinning_;
+  std::vector<std::uint8_t> noted_;    ///< By cell, 1: has changed. All 0 between two states.
   std::vector<std::uint32_t> seeds_;   ///< Of what has changed.
+  std::vector<std::uint32_t> cells_;   ///< Of a set, ascending.
   std::vector<std::uint32_t> order_;   ///< Of the set, the least clearance first.
   std::vector<std::uint32_t> bucket_;  ///< By squared clearance: where in the order it begins.
   PaddedCells skeleton_;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <numeric>
 #include <utility>
 
 namespace cairn {
@@ -43,42 +45,60 @@ const std::array<Vector2d, kRays>& ray_directions() {
   return directions;
 }
 
-constexpr std::size_t kNearCells2 = 1024;
+/// How many cells a ray may step on from a cell by its squared clearance: nothing lies that near.
+double free_step_cells(std::int32_t squared) {
+  if (squared == DistanceTransform::kUnbounded) {
+    return 0.5;
+  }
+  return std::max(0.5, std::sqrt(static_cast<double>(squared)) - 1.5);
+}
 
-/// How many cells a ray may go on by squared clearance; mostly it is near a wall.
-double step_cells(std::int32_t squared_clearance) {
-  static const std::array<double, kNearCells2> steps = [] {
-    std::array<double, kNearCells2> all{};
+/// The same for the clearances that are met indoors, without roots.
+const std::array<double, 1024>& free_steps_cells() {
+  static const std::array<double, 1024> steps = [] {
+    std::array<double, 1024> all{};
     for (std::size_t squared = 0; squared < all.size(); ++squared) {
-      all[squared] = std::max(0.5, std::sqrt(static_cast<double>(squared)) - 1.5);
+      all[squared] = free_step_cells(static_cast<std::int32_t>(squared));
     }
     return all;
   }();
-  if (squared_clearance == DistanceTransform::kUnbounded) {
-    return 0.5;
-  }
-  const auto squared = static_cast<std::size_t>(squared_clearance);
-  return squared < steps.size() ? steps[squared]
-                                : std::sqrt(static_cast<double>(squared_clearance)) - 1.5;
+  return steps;
 }
 
-/// Range of the wall in a direction; 0 where there is none in sight. Steps as far as nothing can be
-/// in the way, by the clearance.
-double range_of_wall(const LocalView& view, const Vector2d& p_map, const Vector2d& direction) {
+/// Ranges of the walls in the directions of the rays; 0 where there is none in sight. The rays
+/// take their steps by turns: no step of one has to wait for those of the others.
+std::array<double, kRays> ranges_of_walls(const LocalView& view, const Vector2d& p_map) {
+  const std::array<Vector2d, kRays>& directions = ray_directions();
+  const std::array<double, 1024>& steps_cells = free_steps_cells();
   const GridGeometry& geometry = view.grid.geometry();
-  double range_m = 0.0;
-  while (range_m < kMaxRange_m) {
-    const Cell cell = geometry.cell_at(p_map + range_m * direction);
-    if (!geometry.contains(cell)) {
-      return 0.0;
+  const std::int32_t* const squared_cells = view.distances.squared_clearances_cells().data();
+  std::array<double, kRays> ranges_m{};
+  std::array<std::size_t, kRays> open{};
+  std::iota(open.begin(), open.end(), std::size_t{0});
+  for (std::size_t count = open.size(); count > 0;) {
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t ray = open[i];
+      const double range_m = ranges_m[ray];
+      const Cell cell = geometry.cell_at(p_map + range_m * directions[ray]);
+      const std::int32_t squared =
+          geometry.contains(cell) ? squared_cells[geometry.index_of(cell)] : 0;
+      if (squared == 0) {
+        ranges_m[ray] = view.is_wall_at(cell) ? range_m : 0.0;
+        continue;
+      }
+      const auto known = static_cast<std::size_t>(squared);
+      ranges_m[ray] += geometry.cell_m *
+                       (known < steps_cells.size() ? steps_cells[known] : free_step_cells(squared));
+      if (ranges_m[ray] < kMaxRange_m) {
+        open[left++] = ray;
+      } else {
+        ranges_m[ray] = 0.0;
+      }
     }
-    const std::int32_t squared = view.distances.squared_clearance_cells(cell);
-    if (squared == 0) {
-      return view.is_wall_at(cell) ? range_m : 0.0;
-    }
-    range_m += geometry.cell_m * step_cells(squared);
+    count = left;
   }
-  return 0.0;
+  return ranges_m;
 }
 
 /// The part of some hits that lies farthest from the line through its ends.
@@ -159,10 +179,9 @@ double sigmoid(double strength) {
 
 std::vector<VisibleWall> visible_walls(const LocalView& view, const Vector2d& p_map) {
   const std::array<Vector2d, kRays>& directions = ray_directions();
-  std::array<double, kRays> ranges_m{};
+  const std::array<double, kRays> ranges_m = ranges_of_walls(view, p_map);
   std::size_t start = 0;  // Behind a gap, so that no wall is cut in two there.
   for (std::size_t i = 0; i < directions.size(); ++i) {
-    ranges_m[i] = range_of_wall(view, p_map, directions[i]);
     start = ranges_m[i] > 0.0 ? start : i;
   }
   std::vector<VisibleWall> walls;

@@ -99,7 +99,8 @@ bool is_place(const PlaceNeighbourhood& place, const PlaceOptions& options) {
 std::optional<PlaceNeighbourhood> neighbourhood_of(const LocalView& view,
                                                    const WalledLengths& walled,
                                                    const AxisSite& site,
-                                                   const PlaceOptions& options) {
+                                                   const PlaceOptions& options,
+                                                   RegionFinder* regions) {
   PlaceNeighbourhood place;
   place.center = center_of(view, site);
   const SiteBounds bounds = bounds_of(view, walled, site, place.center, options);
@@ -122,8 +123,7 @@ std::optional<PlaceNeighbourhood> neighbourhood_of(const LocalView& view,
   for (const UnsureGateway& one : bounds.unsure) {
     lines.push_back(one.gateway);
   }
-  const PlaceRegion region =
-      flooded_region(view, starts, lines, place.center, options.robot_width_m);
+  const PlaceRegion region = regions->find(starts, lines, place.center);
   place.is_complete = bounds.is_decided && region.is_complete;
   place.radius_m = region.radius_m;
   if (place.is_complete) {
@@ -174,8 +174,10 @@ PlacesAround find_places(const OccupancyGrid& grid,
   PlacesAround around;
   around.at_robot = island_at(view, p_grid_robot);
   const WalledLengths walled(view);
+  RegionFinder regions(view, options.robot_width_m);
   for (const AxisSite& site : axis_sites(view, options)) {
-    std::optional<PlaceNeighbourhood> place = neighbourhood_of(view, walled, site, options);
+    std::optional<PlaceNeighbourhood> place =
+        neighbourhood_of(view, walled, site, options, &regions);
     // As long as the star is not complete, not all walls are seen that tell a pose there.
     if (place && (!place->is_complete || place->distinctiveness >= options.min_distinctiveness)) {
       around.places.push_back(*std::move(place));

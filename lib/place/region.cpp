@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "grid/cell_runs.hpp"
+
 namespace cairn {
 namespace {
 
@@ -19,187 +21,194 @@ std::int32_t squared_cells_of(double clearance_m, double cell_m) {
   return static_cast<std::int32_t>(squared);
 }
 
-class RegionFlood {
- public:
-  RegionFlood(const LocalView& view, double robot_width_m)
-      : view_(view),
-        robot_width_m_(robot_width_m),
-        passable_from_(squared_cells_of(0.5 * robot_width_m, view.grid.geometry().cell_m)),
-        coast_below_(squared_cells_of(0.5 * robot_width_m + 1.5 * view.grid.geometry().cell_m,
-                                      view.grid.geometry().cell_m)),
-        marks_(view.grid.geometry().cell_count(), 0) {}
-
-  /// Draws a gateway as an 8-connected line, which a 4-connected flood cannot cross.
-  void bar(const Gateway& gateway) {
-    const GridGeometry& geometry = view_.grid.geometry();
-    const Cell a = geometry.cell_at(gateway.basis_points[0]);
-    const Cell b = geometry.cell_at(gateway.basis_points[1]);
-    const int steps = std::max({std::abs(b.x - a.x), std::abs(b.y - a.y), 1});
-    for (int i = 0; i <= steps; ++i) {
-      const Cell c{a.x + static_cast<int>(std::lround((b.x - a.x) * double(i) / steps)),
-                   a.y + static_cast<int>(std::lround((b.y - a.y) * double(i) / steps))};
-      if (geometry.contains(c)) {
-        marks_[geometry.index_of(c)] |= kBarrier;
-      }
-    }
-  }
-
-  void flood(const std::vector<Cell>& starts) {
-    const GridGeometry& geometry = view_.grid.geometry();
-    for (const Cell c : starts) {
-      if (geometry.contains(c)) {
-        visit(c, geometry.index_of(c));
-      }
-    }
-    const auto width = static_cast<std::size_t>(geometry.width);
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-      const Cell c = cells_[i];
-      const std::size_t at = geometry.index_of(c);
-      if (c.x + 1 < geometry.width) {
-        visit({c.x + 1, c.y}, at + 1);
-      }
-      if (c.y + 1 < geometry.height) {
-        visit({c.x, c.y + 1}, at + width);
-      }
-      if (c.x > 0) {
-        visit({c.x - 1, c.y}, at - 1);
-      }
-      if (c.y > 0) {
-        visit({c.x, c.y - 1}, at - width);
-      }
-    }
-  }
-
-  /// To be asked once.
-  [[nodiscard]] PlaceRegion region(const Vector2d& center) {
-    const GridGeometry& geometry = view_.grid.geometry();
-    PlaceRegion region;
-    std::vector<Cell> unknown;
-    bool is_cut = false;
-    double radius_squared = 0.0;
-    for (const Cell c : cells_) {
-      is_cut = is_cut || at_border(c);
-      const std::size_t at = geometry.index_of(c);
-      const CellOffset to = view_.distances.basis_offsets()[at];
-      // Where the robot, there, would about touch what bounds free space.
-      if (to == CellOffset{} || view_.distances.squared_clearances_cells()[at] >= coast_below_) {
-        continue;
-      }
-      const Cell basis{c.x + to.dx, c.y + to.dy};
-      std::uint8_t& mark = marks_[geometry.index_of(basis)];
-      if ((mark & kBounds) == 0) {
-        mark |= kBounds;
-        if (!view_.is_wall_at(basis)) {
-          unknown.push_back(basis);
-          mark |= kUnknown;
-        }
-        const Vector2d from_center = geometry.center_of(basis) - center;
-        radius_squared = std::max(radius_squared, from_center.squaredNorm());
-      }
-    }
-    region.radius_m = std::sqrt(radius_squared);
-    region.is_complete = !is_cut && longest_stretch_m(unknown) < robot_width_m_;
-    region.contains_robot = holds(view_.robot);
-    return region;
-  }
-
- private:
-  static constexpr std::uint8_t kBarrier = 1;
-  static constexpr std::uint8_t kFlooded = 2;
-  static constexpr std::uint8_t kBounds = 4;   ///< Basis point of a cell of the region.
-  static constexpr std::uint8_t kUnknown = 8;  ///< Such a one that is no wall.
-
-  void visit(Cell c, std::size_t at) {
-    if ((marks_[at] & (kBarrier | kFlooded)) == 0 &&
-        view_.distances.squared_clearances_cells()[at] >= passable_from_) {
-      marks_[at] |= kFlooded;
-      cells_.push_back(c);
-    }
-  }
-
-  [[nodiscard]] bool has_mark(Cell c, std::uint8_t mark) const {
-    const GridGeometry& geometry = view_.grid.geometry();
-    return geometry.contains(c) && (marks_[geometry.index_of(c)] & mark) != 0;
-  }
-
-  [[nodiscard]] bool at_border(Cell c) const {
-    const GridGeometry& geometry = view_.grid.geometry();
-    return c.x == 0 || c.y == 0 || c.x == geometry.width - 1 || c.y == geometry.height - 1;
-  }
-
-  /// Whether a cell, or one within the robot's half width of it, is flooded.
-  [[nodiscard]] bool holds(Cell c) const {
-    const int r = static_cast<int>(std::ceil(0.5 * robot_width_m_ / view_.grid.geometry().cell_m));
-    const bool is_inside = has_mark(c, kFlooded);
-    if (is_inside || has_mark(c, kBarrier) ||
-        view_.distances.clearance_m(c) >= 0.5 * robot_width_m_) {
-      return is_inside;
-    }
-    for (int dy = -r; dy <= r; ++dy) {
-      for (int dx = -r; dx <= r; ++dx) {
-        if (has_mark({c.x + dx, c.y + dy}, kFlooded)) {
-          return true;
-        }
-      }
-    }
-    return false;
-  }
-
-  /// Extent of the largest 8-connected piece of the cells of unknown state.
-  [[nodiscard]] double longest_stretch_m(const std::vector<Cell>& cells) {
-    const GridGeometry& geometry = view_.grid.geometry();
-    double longest = 0.0;
-    std::vector<Cell> piece;
-    const auto take = [&](Cell c) {
-      if (has_mark(c, kUnknown)) {
-        marks_[geometry.index_of(c)] &= static_cast<std::uint8_t>(~kUnknown);
-        piece.push_back(c);
-      }
-    };
-    for (const Cell first : cells) {
-      piece.clear();
-      take(first);
-      if (piece.empty()) {
-        continue;
-      }
-      Cell low = first;
-      Cell high = first;
-      for (std::size_t i = 0; i < piece.size(); ++i) {
-        const Cell c = piece[i];
-        low = {std::min(low.x, c.x), std::min(low.y, c.y)};
-        high = {std::max(high.x, c.x), std::max(high.y, c.y)};
-        for (int dy = -1; dy <= 1; ++dy) {
-          for (int dx = -1; dx <= 1; ++dx) {
-            take({c.x + dx, c.y + dy});
-          }
-        }
-      }
-      longest = std::max(longest, std::hypot(high.x - low.x + 1.0, high.y - low.y + 1.0));
-    }
-    return longest * geometry.cell_m;
-  }
-
-  const LocalView& view_;
-  double robot_width_m_;
-  std::int32_t passable_from_;  ///< Squared clearance in cells.
-  std::int32_t coast_below_;
-  std::vector<std::uint8_t> marks_;
-  std::vector<Cell> cells_;
-};
+constexpr std::uint8_t kBarrier = 1;
+constexpr std::uint8_t kBounds = 2;   ///< Basis point of a cell of the region.
+constexpr std::uint8_t kUnknown = 4;  ///< Such a one that is no wall.
 
 }  // namespace
 
-PlaceRegion flooded_region(const LocalView& view,
-                           const std::vector<Cell>& starts,
-                           const std::vector<Gateway>& gateways,
-                           const Vector2d& center,
-                           double robot_width_m) {
-  RegionFlood flood(view, robot_width_m);
+RegionFinder::RegionFinder(const LocalView& view, double robot_width_m)
+    : view_(view), robot_width_m_(robot_width_m) {
+  const double cell_m = view.grid.geometry().cell_m;
+  const std::int32_t passable_from = squared_cells_of(0.5 * robot_width_m, cell_m);
+  const std::int32_t coast_below = squared_cells_of(0.5 * robot_width_m + 1.5 * cell_m, cell_m);
+  const std::vector<std::int32_t>& squared = view.distances.squared_clearances_cells();
+  is_passable_.resize(squared.size());
+  is_coast_.resize(squared.size());
+  std::transform(squared.begin(), squared.end(), is_passable_.begin(),
+                 [=](std::int32_t s) -> std::uint8_t { return s >= passable_from ? 1 : 0; });
+  std::transform(squared.begin(), squared.end(), is_coast_.begin(),
+                 [=](std::int32_t s) -> std::uint8_t { return s < coast_below ? 1 : 0; });
+}
+
+PlaceRegion RegionFinder::find(const std::vector<Cell>& starts,
+                               const std::vector<Gateway>& gateways,
+                               const Vector2d& center) {
+  is_left_ = is_passable_;
+  marks_.assign(is_passable_.size(), 0);
   for (const Gateway& gateway : gateways) {
-    flood.bar(gateway);
+    bar(gateway);
   }
-  flood.flood(starts);
-  return flood.region(center);
+  flood(starts);
+  PlaceRegion region;
+  region.radius_m = note_bounds(center);
+  region.is_complete = !is_cut() && longest_unknown_m() < robot_width_m_;
+  region.contains_robot = holds(view_.robot);
+  return region;
+}
+
+/// Draws a gateway as an 8-connected line, which a 4-connected flood cannot cross.
+void RegionFinder::bar(const Gateway& gateway) {
+  const GridGeometry& geometry = view_.grid.geometry();
+  const Cell a = geometry.cell_at(gateway.basis_points[0]);
+  const Cell b = geometry.cell_at(gateway.basis_points[1]);
+  const int steps = std::max({std::abs(b.x - a.x), std::abs(b.y - a.y), 1});
+  for (int i = 0; i <= steps; ++i) {
+    const Cell c{a.x + static_cast<int>(std::lround((b.x - a.x) * double(i) / steps)),
+                 a.y + static_cast<int>(std::lround((b.y - a.y) * double(i) / steps))};
+    if (geometry.contains(c)) {
+      is_left_[geometry.index_of(c)] = 0;
+      marks_[geometry.index_of(c)] |= kBarrier;
+    }
+  }
+}
+
+void RegionFinder::flood(const std::vector<Cell>& starts) {
+  const GridGeometry& geometry = view_.grid.geometry();
+  runs_.clear();
+  open_.clear();
+  for (const Cell c : starts) {
+    if (geometry.contains(c)) {
+      open_.push_back(geometry.index_of(c));
+    }
+  }
+  while (!open_.empty()) {
+    const std::size_t seed = open_.back();
+    open_.pop_back();
+    if (is_left_[seed] != 0) {
+      take_run(seed);
+    }
+  }
+}
+
+/// Takes the whole run that a cell lies in; of the rows above and below one cell of every run
+/// beside it is left to be looked at.
+void RegionFinder::take_run(std::size_t seed) {
+  const auto width = static_cast<std::size_t>(view_.grid.geometry().width);
+  const std::size_t row = seed - seed % width;
+  const std::size_t end = end_of_run(is_left_.data(), seed, row + width, 1);
+  std::size_t begin = seed;
+  while (begin > row && is_left_[begin - 1] != 0) {
+    --begin;
+  }
+  std::fill(is_left_.begin() + static_cast<std::ptrdiff_t>(begin),
+            is_left_.begin() + static_cast<std::ptrdiff_t>(end), std::uint8_t{0});
+  runs_.push_back(
+      {static_cast<int>(row / width), static_cast<int>(begin - row), static_cast<int>(end - row)});
+  const auto note = [this](std::size_t first, std::size_t) { open_.push_back(first); };
+  if (row >= width) {
+    for_each_run(is_left_.data(), begin - width, end - width, note);
+  }
+  if (row + width < is_left_.size()) {
+    for_each_run(is_left_.data(), begin + width, end + width, note);
+  }
+}
+
+/// Notes the basis points of the coast.
+/// @return how far from the centre they lie at most
+double RegionFinder::note_bounds(const Vector2d& center) {
+  const GridGeometry& geometry = view_.grid.geometry();
+  const std::vector<CellOffset>& to_basis = view_.distances.basis_offsets();
+  unknown_.clear();
+  double radius_squared = 0.0;
+  for (const CellRun& run : runs_) {
+    const std::size_t row = geometry.index_of({0, run.y});
+    const auto note = [&](std::size_t at) {
+      const Cell basis{static_cast<int>(at - row) + to_basis[at].dx, run.y + to_basis[at].dy};
+      std::uint8_t& mark = marks_[geometry.index_of(basis)];
+      if ((mark & kBounds) != 0) {
+        return;
+      }
+      mark |= kBounds;
+      if (!view_.is_wall_at(basis)) {
+        unknown_.push_back(basis);
+        mark |= kUnknown;
+      }
+      radius_squared = std::max(radius_squared, (geometry.center_of(basis) - center).squaredNorm());
+    };
+    for_each_run(is_coast_.data(), row + static_cast<std::size_t>(run.first),
+                 row + static_cast<std::size_t>(run.last),
+                 [&](std::size_t first, std::size_t last) {
+                   for (std::size_t at = first; at < last; ++at) {
+                     note(at);
+                   }
+                 });
+  }
+  return std::sqrt(radius_squared);
+}
+
+/// Whether the window ends within the region.
+bool RegionFinder::is_cut() const {
+  const GridGeometry& geometry = view_.grid.geometry();
+  return std::any_of(runs_.begin(), runs_.end(), [&](const CellRun& run) {
+    return run.y == 0 || run.y == geometry.height - 1 || run.first == 0 ||
+           run.last == geometry.width;
+  });
+}
+
+/// Whether a cell, or one within the robot's half width of it, is flooded.
+bool RegionFinder::holds(Cell c) const {
+  const auto is_flooded_within = [&](int reach) {
+    return std::any_of(runs_.begin(), runs_.end(), [&](const CellRun& run) {
+      return std::abs(run.y - c.y) <= reach && run.first <= c.x + reach && run.last > c.x - reach;
+    });
+  };
+  if (is_flooded_within(0)) {
+    return true;
+  }
+  const int reach =
+      static_cast<int>(std::ceil(0.5 * robot_width_m_ / view_.grid.geometry().cell_m));
+  return !has_mark(c, kBarrier) && view_.distances.clearance_m(c) < 0.5 * robot_width_m_ &&
+         is_flooded_within(reach);
+}
+
+bool RegionFinder::has_mark(Cell c, std::uint8_t mark) const {
+  const GridGeometry& geometry = view_.grid.geometry();
+  return geometry.contains(c) && (marks_[geometry.index_of(c)] & mark) != 0;
+}
+
+/// Extent of the largest 8-connected piece of the cells of unknown state. To be asked once.
+double RegionFinder::longest_unknown_m() {
+  const GridGeometry& geometry = view_.grid.geometry();
+  double longest = 0.0;
+  std::vector<Cell> piece;
+  const auto take = [&](Cell c) {
+    if (has_mark(c, kUnknown)) {
+      marks_[geometry.index_of(c)] &= static_cast<std::uint8_t>(~kUnknown);
+      piece.push_back(c);
+    }
+  };
+  for (const Cell first : unknown_) {
+    piece.clear();
+    take(first);
+    if (piece.empty()) {
+      continue;
+    }
+    Cell low = first;
+    Cell high = first;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const Cell c = piece[i];
+      low = {std::min(low.x, c.x), std::min(low.y, c.y)};
+      high = {std::max(high.x, c.x), std::max(high.y, c.y)};
+      for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+          take({c.x + dx, c.y + dy});
+        }
+      }
+    }
+    longest = std::max(longest, std::hypot(high.x - low.x + 1.0, high.y - low.y + 1.0));
+  }
+  return longest * geometry.cell_m;
 }
 
 }  // namespace cairn
