@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 #include <utility>
 
 namespace cairn {
@@ -19,9 +20,13 @@ class AxisTracer {
       : skeleton_(skeleton),
         distances_(distances),
         cells_(std::move(cells)),
-        node_of_(skeleton.size(), kNone),
-        walked_(skeleton.size(), 0) {
+        node_of_(std::make_unique_for_overwrite<std::uint32_t[]>(skeleton.size())),
+        walked_(std::make_unique_for_overwrite<std::uint8_t[]>(skeleton.size())) {
     std::sort(cells_.begin(), cells_.end());
+    for (const std::size_t i : cells_) {
+      node_of_[i] = kNone;
+      walked_[i] = 0;
+    }
   }
 
   MedialAxis trace() {
@@ -162,8 +167,9 @@ class AxisTracer {
   const PaddedCells& skeleton_;
   const DistanceTransform& distances_;
   std::vector<std::uint32_t> cells_;  ///< Of the skeleton, ascending.
-  std::vector<std::uint32_t> node_of_;
-  std::vector<std::uint8_t> walked_;
+  /// By cell, of the skeleton only: most of the window is never asked for.
+  std::unique_ptr<std::uint32_t[]> node_of_;
+  std::unique_ptr<std::uint8_t[]> walked_;
   MedialAxis axis_;
 };
 

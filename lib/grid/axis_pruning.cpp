@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "grid/axis_graph.hpp"
 
@@ -7,7 +8,7 @@ namespace cairn {
 namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-constexpr double kNotKnown = -1.0;
+constexpr double kNoSpur = std::numeric_limits<double>::infinity();
 
 bool is_at_border(const GridWindow& window, Cell c) {
   return c.x == window.lower.x || c.y == window.lower.y ||
@@ -54,13 +55,16 @@ bool touches_unknown(const DistanceTransform& distances, Cell end) {
   return false;
 }
 
-AxisEnd kind_of_end(const DistanceTransform& distances, Cell end) {
+bool is_end_at_border(const GridWindow& w, Cell end) {
   constexpr int kNearBorder = 2;
-  const GridWindow& w = distances.window();
   const int to_border =
       std::min({end.x - w.lower.x, end.y - w.lower.y, w.lower.x + w.width - 1 - end.x,
                 w.lower.y + w.height - 1 - end.y});
-  if (to_border <= kNearBorder) {
+  return to_border <= kNearBorder;
+}
+
+AxisEnd kind_of_end(const DistanceTransform& distances, Cell end) {
+  if (is_end_at_border(distances.window(), end)) {
     return AxisEnd::kBorder;
   }
   return touches_unknown(distances, end) ? AxisEnd::kUnknown : AxisEnd::kBlocked;
@@ -73,12 +77,11 @@ class AxisPruner {
         coastal_distance_m_(coastal_distance_m),
         distances_(distances),
         is_gone_(axis_.edges.size(), false),
-        hides_unknown_(axis_.nodes.size(), false),
-        length_m_(axis_.edges.size(), kNotKnown) {}
+        depth_m_(axis_.edges.size(), kNoSpur) {}
 
   MedialAxis prune() {
-    for (AxisNode& node : axis_.nodes) {
-      note_end(&node);
+    for (std::size_t e = 0; e < axis_.edges.size(); ++e) {
+      note_depth(e);
     }
     for (std::size_t n = 0; n < axis_.nodes.size(); ++n) {
       join_at(n);
@@ -90,12 +93,6 @@ class AxisPruner {
   }
 
  private:
-  void note_end(AxisNode* node) const {
-    if (node->edges.size() < 2 && node->end == AxisEnd::kMeets) {
-      node->end = kind_of_end(distances_, node->cell);
-    }
-  }
-
   /// The node a blind branch leaves from, or none.
   [[nodiscard]] std::size_t base_of(const AxisEdge& edge) const {
     const std::size_t from_degree = axis_.nodes[edge.from].edges.size();
@@ -106,43 +103,40 @@ class AxisPruner {
     return to_degree == 1 && from_degree > 2 ? edge.from : kNone;
   }
 
-  [[nodiscard]] double whole_length_m(std::size_t e) {
-    if (length_m_[e] < 0.0) {
-      const AxisEdge& edge = axis_.edges[e];
-      length_m_[e] = length_m(edge, 0, edge.cells.size() - 1, distances_.geometry().cell_m);
+  /// How far a blind branch reaches beyond the clearance disc of the node it leaves from.
+  void note_depth(std::size_t e) {
+    const AxisEdge& edge = axis_.edges[e];
+    const std::size_t base = base_of(edge);
+    depth_m_[e] = kNoSpur;
+    if (base == kNone) {
+      return;
     }
-    return length_m_[e];
+    const AxisNode& tip = axis_.nodes[base == edge.from ? edge.to : edge.from];
+    if (!is_end_at_border(distances_.window(), tip.cell)) {
+      depth_m_[e] = length_m(edge, 0, edge.cells.size() - 1, distances_.geometry().cell_m) +
+                    tip.clearance_m - axis_.nodes[base].clearance_m;
+    }
   }
 
-  [[nodiscard]] std::size_t shallowest_spur() {
-    std::size_t best = kNone;
-    double least = coastal_distance_m_;
-    for (std::size_t e = 0; e < axis_.edges.size(); ++e) {
-      const AxisEdge& edge = axis_.edges[e];
-      const std::size_t base = is_gone_[e] ? kNone : base_of(edge);
-      if (base == kNone) {
-        continue;
-      }
-      const AxisNode& tip = axis_.nodes[base == edge.from ? edge.to : edge.from];
-      const double depth_m = whole_length_m(e) + tip.clearance_m - axis_.nodes[base].clearance_m;
-      if (tip.end != AxisEnd::kBorder && depth_m < least) {
-        best = e;
-        least = depth_m;
-      }
-    }
-    return best;
+  [[nodiscard]] std::size_t shallowest_spur() const {
+    const auto least = std::min_element(depth_m_.begin(), depth_m_.end());
+    return least != depth_m_.end() && *least < coastal_distance_m_
+               ? static_cast<std::size_t>(least - depth_m_.begin())
+               : kNone;
   }
 
   void remove(std::size_t e) {
     const AxisEdge& edge = axis_.edges[e];
     const std::size_t base = base_of(edge);
-    const std::size_t tip = base == edge.from ? edge.to : edge.from;
-    hides_unknown_[base] =
-        hides_unknown_[base] || hides_unknown_[tip] || axis_.nodes[tip].end == AxisEnd::kUnknown;
     detach(e, edge.from);
     detach(e, edge.to);
-    is_gone_[e] = true;
+    take_out(e);
     join_at(base);
+  }
+
+  void take_out(std::size_t e) {
+    is_gone_[e] = true;
+    depth_m_[e] = kNoSpur;
   }
 
   void detach(std::size_t e, std::size_t n) {
@@ -163,7 +157,6 @@ class AxisPruner {
     }
     const std::size_t kept = axis_.nodes[n].edges[0];
     const std::size_t merged = axis_.nodes[n].edges[1];
-    length_m_[kept] = kNotKnown;
     AxisEdge& first = axis_.edges[kept];
     AxisEdge& second = axis_.edges[merged];
     if (first.to != n) {
@@ -180,7 +173,8 @@ class AxisPruner {
     std::replace(at_far_end.begin(), at_far_end.end(), merged, kept);
     std::sort(at_far_end.begin(), at_far_end.end());
     axis_.nodes[n].edges.clear();
-    is_gone_[merged] = true;
+    take_out(merged);
+    note_depth(kept);
   }
 
   /// The nodes and edges that are left, numbered anew.
@@ -194,9 +188,8 @@ class AxisPruner {
       if (node.edges.empty() && !(is_point && result.nodes.empty())) {
         continue;
       }
-      note_end(&node);
-      if (node.end == AxisEnd::kBlocked && hides_unknown_[n]) {
-        node.end = AxisEnd::kUnknown;
+      if (node.edges.size() < 2) {
+        node.end = kind_of_end(distances_, node.cell);
       }
       number[n] = result.nodes.size();
       result.nodes.push_back(node);
@@ -220,8 +213,7 @@ class AxisPruner {
   double coastal_distance_m_;
   const DistanceTransform& distances_;
   std::vector<bool> is_gone_;
-  std::vector<bool> hides_unknown_;
-  std::vector<double> length_m_;  ///< By edge, of the whole of it.
+  std::vector<double> depth_m_;  ///< By edge; kNoSpur where it may not be pruned.
 };
 
 }  // namespace

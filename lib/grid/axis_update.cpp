@@ -11,7 +11,7 @@ namespace cairn {
 namespace {
 
 /// To follow a change costs so many times as much by cell as to start anew.
-constexpr std::size_t kCostOfFollowing = 12;
+constexpr std::size_t kCostOfFollowing = 30;
 
 bool is_wider(CellOffset a, CellOffset b, std::int64_t dot, double max_cosine) {
   return static_cast<double>(dot) <

@@ -159,12 +159,16 @@ struct Sides {
 /// Looks at the basis points of the cell and of those beside it, which lie on either side of the
 /// axis.
 Sides sides_of(const LocalView& view, Cell cell) {
+  const GridGeometry& geometry = view.grid.geometry();
+  const CellState* const states = view.distances.states().data();
+  const CellOffset* const to_basis = view.distances.basis_offsets().data();
   Sides sides;
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) {
-      const Cell beside{cell.x + dx, cell.y + dy};
-      if (view.distances.state(beside) == CellState::kFree) {
-        const bool is_wall = view.is_wall_at(view.distances.basis_point(beside));
+  for (int y = std::max(cell.y - 1, 0); y <= std::min(cell.y + 1, geometry.height - 1); ++y) {
+    for (int x = std::max(cell.x - 1, 0); x <= std::min(cell.x + 1, geometry.width - 1); ++x) {
+      const std::size_t at = geometry.index_of({x, y});
+      if (states[at] == CellState::kFree) {
+        const Cell basis{x + to_basis[at].dx, y + to_basis[at].dy};
+        const bool is_wall = view.is_wall[geometry.index_of(basis)] != 0;
         ++(is_wall ? sides.walls : sides.unknown);
       }
     }

@@ -5,7 +5,6 @@
 #include <limits>
 #include <tuple>
 
-#include "grid/axis_graph.hpp"
 #include "grid/critical_points.hpp"
 #include "place/opening_reason.hpp"
 #include "place/small_scale_star.hpp"
@@ -28,13 +27,14 @@ constexpr double kSure = std::numeric_limits<double>::infinity();
 constexpr double kLeastLogOdds = -2.5;
 
 /// Where the way has come by some travel from a position on, or its end.
-std::size_t position_after(
-    const MedialAxis& axis, AxisWay way, std::size_t position, double travel_m, double cell_m) {
-  const AxisEdge& edge = axis.edges[way.edge];
+std::size_t position_after(const LocalView& view,
+                           AxisWay way,
+                           std::size_t position,
+                           double travel_m) {
+  const std::vector<double>& step_m = view.profiles[way.edge].step_m;
   double travelled_m = 0.0;
-  while (position + 1 < edge.cells.size() && travelled_m < travel_m) {
-    travelled_m += length_m(edge, index_on_edge(axis, way, position),
-                            index_on_edge(axis, way, position + 1), cell_m);
+  while (position < step_m.size() && travelled_m < travel_m) {
+    travelled_m += step_m[way.forward ? position : step_m.size() - 1 - position];
     ++position;
   }
   return position;
@@ -55,17 +55,13 @@ std::size_t narrowest_between(const MedialAxis& axis,
   return best;
 }
 
-double bearing_beyond(const LocalView& view,
-                      const MedialAxis& axis,
-                      AxisWay way,
-                      std::size_t position) {
-  const double cell_m = view.grid.geometry().cell_m;
-  const AxisEdge& edge = axis.edges[way.edge];
-  const std::size_t ahead = position_after(axis, way, position, kDirection_m, cell_m);
+double bearing_beyond(const LocalView& view, AxisWay way, std::size_t position) {
+  const AxisEdge& edge = view.axis.edges[way.edge];
+  const std::size_t ahead = position_after(view, way, position, kDirection_m);
   // At least some cells: a single step has but eight directions.
   const std::size_t behind = ahead >= position + 5 ? position : (ahead > 5 ? ahead - 5 : 0);
-  const Cell a = edge.cells[index_on_edge(axis, way, behind)];
-  const Cell b = edge.cells[index_on_edge(axis, way, ahead)];
+  const Cell a = edge.cells[index_on_edge(view.axis, way, behind)];
+  const Cell b = edge.cells[index_on_edge(view.axis, way, ahead)];
   return std::atan2(b.y - a.y, b.x - a.x);
 }
 
@@ -84,7 +80,7 @@ std::optional<Gateway> gateway_at(const LocalView& view, AxisWay way, std::size_
   gateway.basis_points = {geometry.center_of(basis[0]), geometry.center_of(basis[1])};
   gateway.middle = geometry.center_of(edge.cells[index]);
   gateway.width_m = (gateway.basis_points[0] - gateway.basis_points[1]).norm();
-  gateway.outward_bearing_rad = bearing_beyond(view, view.axis, way, position);
+  gateway.outward_bearing_rad = bearing_beyond(view, way, position);
   return gateway;
 }
 
@@ -145,7 +141,7 @@ ConsideredOpening without_line(const LocalView& view, AxisWay way, bool is_undec
   ConsideredOpening opening;
   opening.line.middle = view.grid.geometry().center_of(edge.cells[last]);
   opening.line.basis_points = {opening.line.middle, opening.line.middle};
-  opening.line.outward_bearing_rad = bearing_beyond(view, view.axis, way, edge.cells.size() - 1);
+  opening.line.outward_bearing_rad = bearing_beyond(view, way, edge.cells.size() - 1);
   opening.state = is_undecided ? OpeningState::kUndecided : OpeningState::kRejected;
   opening.reason = is_undecided ? OpeningReason::kUnknownBehind : OpeningReason::kBlindAlcove;
   return opening;
@@ -214,7 +210,6 @@ WayOut way_out(const LocalView& view,
                const AxisSite& site,
                AxisWay way,
                const PlaceOptions& options) {
-  const double cell_m = view.grid.geometry().cell_m;
   const AxisEdge& edge = view.axis.edges[way.edge];
   const AxisEnd end = view.axis.nodes[way.forward ? edge.to : edge.from].end;
   WayOut out;
@@ -224,7 +219,7 @@ WayOut way_out(const LocalView& view,
   if (!first) {
     return out;
   }
-  const std::size_t last = position_after(view.axis, way, *first, kRefine_m, cell_m);
+  const std::size_t last = position_after(view, way, *first, kRefine_m);
   const std::size_t position = narrowest_between(view.axis, way, *first, last);
   std::optional<Gateway> line = gateway_at(view, way, position);
   if (!line) {
